@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/nothing.hpp>
+#include <stickslip/geometry/surface_point.hpp>
+#include <stickslip/policy/enforcement.hpp>
+#include <stickslip/policy/friction.hpp>
+
+#include <cmath>
+
+namespace stickslip {
+
+/// What a node in frictional contact remembers.
+template <class S, int dim, class Pressure>
+struct FrictionMemory {
+  Vec<S, dim - 1> traction = Vec<S, dim - 1>::Zero();  ///< t_F, work conjugate to the tool's surface coordinates [force]
+  Vec<S, dim - 1> place = Vec<S, dim - 1>::Zero();     ///< surface coordinates of the closest point [length]
+  S slip = S(0);                                       ///< slid distance so far [length]
+  [[no_unique_address]] typename Pressure::template Memory<S> pressure{};
+};
+
+namespace detail {
+template <class S, int dim, class Friction, bool active = Friction::active>
+struct FrictionMemoryOf {
+  using type = FrictionMemory<S, dim, typename Friction::Pressure>;
+};
+template <class S, int dim, class Friction>
+struct FrictionMemoryOf<S, dim, Friction, false> {
+  using type = Nothing<Friction>;
+};
+}  // namespace detail
+
+/// What a contact node remembers: the friction's memory and the enforcement's, each only where there is one.
+template <class S, int dim, class Enforcement, class Friction>
+struct NodeMemory {
+  [[no_unique_address]] typename detail::FrictionMemoryOf<S, dim, Friction>::type friction{};
+  [[no_unique_address]] typename Enforcement::template Memory<S> enforcement{};
+};
+
+/// What a contact node contributes.
+template <class S, int dim, class Memory>
+struct NodeContact {
+  Vec<S, dim> force = Vec<S, dim>::Zero();      ///< R_C + R_F: the node's force on the tool [force]
+  Mat<S, dim> stiffness = Mat<S, dim>::Zero();  ///< its derivative by the node's position
+  S pressure = S(0);                            ///< -t_N [force]
+  S bound = S(0);                               ///< largest friction force at the current pressure [force]
+  S lag = S(0);                                 ///< bound at the current pressure less the bound that was used [force]
+  S dissipated = S(0);                          ///< work of friction in this step [energy]
+  bool touching = false;
+  bool sliding = false;
+  Memory memory{};
+};
+
+/// Normal contact and friction of one node, in the tool's frame (theory.md, eq. 4.4-4.6 and 5.1-5.9). `slipped` is the
+/// change of the surface coordinates since the converged state.
+template <class S, int dim, class Enforcement, class Law, class Friction>
+NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
+    const Enforcement& enforcement, const Law& law, Friction, Real weight, const SurfacePoint<S, dim>& at,
+    const Vec<S, dim - 1>& slipped, const NodeMemory<S, dim, Enforcement, Friction>& old, Real dt) {
+  using std::sqrt;
+  NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> out;
+  out.memory.enforcement = old.enforcement;
+  out.touching = value_of(at.gap) <= 0;
+  if constexpr (Friction::active) {
+    out.memory.friction.place = at.place;
+    out.memory.friction.slip = old.friction.slip;
+  }
+  if (!out.touching) return out;
+
+  const NormalForce<S> normal = enforcement.normal_force(at.gap, weight, old.enforcement);
+  out.pressure = -normal.value;
+  out.force = at.normal * normal.value;
+  out.stiffness = at.normal * at.normal.transpose() * normal.d_gap + at.hess_gap * normal.value;
+
+  if constexpr (Friction::active) {
+    using Pressure = typename Friction::Pressure;
+    constexpr int m = dim - 1;
+    const S stiffness = S(enforcement.stick_stiffness(weight));
+    const S pressure = Pressure::pressure(out.pressure, old.friction.pressure);
+    const Vec<S, m> trial = old.friction.traction + slipped * stiffness;
+    // The magnitude of one component is exact; a root would lose the derivative at zero.
+    S size;
+    if constexpr (m == 1)
+      size = value_of(trial[0]) < 0 ? S(-trial[0]) : S(trial[0]);
+    else
+      size = value_of(trial.squaredNorm()) > 0 ? S(sqrt(trial.squaredNorm())) : S(0);
+
+    // Radial return: |t_F| = size - stiffness lambda = bound(pressure, slip + lambda).
+    FrictionBound<S> bound = law.bound(FrictionPoint<S>{pressure, old.friction.slip});
+    Vec<S, m> traction = trial;
+    Mat<S, m> d_trial = Mat<S, m>::Identity() * stiffness;  // d traction / d place
+    Vec<S, m> d_pressure = Vec<S, m>::Zero();               // d traction / d pressure
+    if (!(value_of(size) < value_of(bound.value))) {
+      out.sliding = true;
+      S lambda = value_of(stiffness) > 0 ? S((size - bound.value) / stiffness) : S(0);
+      if constexpr (Law::depends_on_slip)
+        for (int i = 0; i < 30; ++i) {
+          bound = law.bound(FrictionPoint<S>{pressure, S(old.friction.slip + lambda)});
+          const S excess = size - stiffness * lambda - bound.value;
+          lambda += excess / (stiffness + bound.d_slip);
+          if (std::abs(value_of(excess)) <= 1e-14 * value_of(size)) break;
+        }
+      const Vec<S, m> direction = value_of(size) > 0 ? Vec<S, m>(trial / size) : Vec<S, m>(Vec<S, m>::Zero());
+      const S share = stiffness / (stiffness + bound.d_slip);
+      const S ratio = value_of(size) > 0 ? S(bound.value / size) : S(0);
+      traction = direction * bound.value;
+      d_trial = (Mat<S, m>::Identity() - direction * direction.transpose()) * S(ratio * stiffness) +
+                direction * direction.transpose() * S(share * bound.d_slip);
+      if constexpr (Pressure::follows_current) d_pressure = direction * S(share * bound.d_pressure);
+      out.memory.friction.slip = old.friction.slip + lambda;
+      out.dissipated = bound.value * lambda;
+    }
+    out.force += at.grad_place * traction;
+    out.stiffness += at.grad_place * d_trial * at.grad_place.transpose();
+    for (int k = 0; k < m; ++k) out.stiffness += at.hess_place[static_cast<std::size_t>(k)] * traction[k];
+    if constexpr (Pressure::follows_current && Law::depends_on_pressure)
+      out.stiffness -= at.grad_place * d_pressure * at.normal.transpose() * normal.d_gap;
+
+    out.bound = bound.value;
+    if constexpr (!Pressure::follows_current && Law::depends_on_pressure) {
+      out.bound = law.bound(FrictionPoint<S>{out.pressure, out.memory.friction.slip}).value;
+      out.lag = out.bound - bound.value;
+    }
+    out.memory.friction.traction = traction;
+    out.memory.friction.pressure = Pressure::advance(out.pressure, old.friction.pressure, dt);
+  }
+  return out;
+}
+
+}  // namespace stickslip

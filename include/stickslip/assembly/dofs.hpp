@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/types.hpp>
+
+#include <vector>
+
+namespace stickslip {
+
+/// Which nodal components are unknown, and their equation numbers. A component that is held or driven has none.
+class Dofs {
+ public:
+  static constexpr Index constrained = -1;
+
+  Dofs() = default;
+  Dofs(Index components, const std::vector<bool>& is_constrained) : equation_(static_cast<std::size_t>(components)) {
+    for (std::size_t i = 0; i < equation_.size(); ++i) equation_[i] = is_constrained[i] ? constrained : unknowns_++;
+  }
+  /// Number of unknowns.
+  Index unknowns() const { return unknowns_; }
+  /// Number of nodal components, the constrained ones among them.
+  Index components() const { return static_cast<Index>(equation_.size()); }
+  /// Equation of component node * dim + i, or `constrained`.
+  Index equation(Index component) const { return equation_[static_cast<std::size_t>(component)]; }
+
+  /// Picks the unknowns out of a nodal field.
+  void gather(const Field& field, Field& unknowns) const {
+    for (Index i = 0; i < components(); ++i)
+      if (equation(i) != constrained) unknowns[equation(i)] = field[i];
+  }
+  /// Adds factor * unknowns to a nodal field.
+  void scatter_add(Real factor, const Field& unknowns, Field& field) const {
+    for (Index i = 0; i < components(); ++i)
+      if (equation(i) != constrained) field[i] += factor * unknowns[equation(i)];
+  }
+
+ private:
+  std::vector<Index> equation_;
+  Index unknowns_ = 0;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/assembly/dofs.hpp>
+#include <stickslip/policy/linear_solver.hpp>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+namespace stickslip {
+
+/// The system matrix: a pattern that is made once and values that are refilled through maps. Entries of constrained
+/// components, and of the upper triangle of a symmetric matrix, go to one spare slot behind the values, so that the
+/// scatter loop has no branch.
+template <Symmetry storage>
+class SparseMatrix {
+ public:
+  /// Entries of a square block over `n` local components that are scattered: column by column, of a symmetric one the
+  /// lower triangle.
+  static constexpr int block_entries(int n) { return storage == Symmetry::symmetric ? n * (n + 1) / 2 : n * n; }
+
+  /// Makes the pattern of all couplings within the groups of components that `for_each_group` visits.
+  template <class ForEachGroup>
+  void build(const Dofs& dofs, ForEachGroup&& for_each_group) {
+    const Index n = dofs.unknowns();
+    std::vector<std::vector<Index>> columns(static_cast<std::size_t>(n));
+    for_each_group([&](std::span<const Index> components) {
+      for (const Index a : components)
+        for (const Index b : components) {
+          const Index row = dofs.equation(a), column = dofs.equation(b);
+          if (row == Dofs::constrained || column == Dofs::constrained) continue;
+          if (storage == Symmetry::general || row >= column) columns[static_cast<std::size_t>(column)].push_back(row);
+        }
+    });
+    column_start_.assign(1, 0);
+    row_.clear();
+    for (auto& column : columns) {
+      std::sort(column.begin(), column.end());
+      column.erase(std::unique(column.begin(), column.end()), column.end());
+      row_.insert(row_.end(), column.begin(), column.end());
+      column_start_.push_back(static_cast<Index>(row_.size()));
+    }
+    values_.assign(row_.size() + 1, 0.0);
+  }
+
+  /// Where the entries of a block over `components` are stored.
+  template <std::size_t n>
+  std::array<Index, static_cast<std::size_t>(block_entries(n))> map(const Dofs& dofs, const std::array<Index, n>& components) const {
+    std::array<Index, static_cast<std::size_t>(block_entries(n))> slots;
+    std::size_t k = 0;
+    for (std::size_t b = 0; b < n; ++b)
+      for (std::size_t a = storage == Symmetry::symmetric ? b : 0; a < n; ++a)
+        slots[k++] = slot(dofs.equation(components[a]), dofs.equation(components[b]));
+    return slots;
+  }
+
+  void set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
+
+  /// Adds a block; of a symmetric matrix its lower triangle is read.
+  template <int n>
+  void add(const std::array<Index, static_cast<std::size_t>(block_entries(n))>& slots, const Mat<Real, n>& block) {
+    std::size_t k = 0;
+    for (int b = 0; b < n; ++b)
+      for (int a = storage == Symmetry::symmetric ? b : 0; a < n; ++a) values_[static_cast<std::size_t>(slots[k++])] += block(a, b);
+  }
+
+  SparseView view() const {
+    return {static_cast<Index>(column_start_.size()) - 1, column_start_.data(), row_.data(), values_.data(), storage};
+  }
+
+ private:
+  Index slot(Index row, Index column) const {
+    const Index spare = static_cast<Index>(row_.size());
+    if (row == Dofs::constrained || column == Dofs::constrained) return spare;
+    if (storage == Symmetry::symmetric && row < column) std::swap(row, column);
+    const auto begin = row_.begin() + column_start_[static_cast<std::size_t>(column)];
+    const auto end = row_.begin() + column_start_[static_cast<std::size_t>(column) + 1];
+    return static_cast<Index>(std::lower_bound(begin, end, row) - row_.begin());
+  }
+
+  std::vector<Index> column_start_{0};
+  std::vector<Index> row_;
+  std::vector<Real> values_;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/assembly/body.hpp>
+#include <stickslip/assembly/contact.hpp>
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stickslip {
+
+/// A component of all nodes of a side, as a function of time.
+struct SideValue {
+  std::string side;
+  Index component;
+  std::function<Real(Real)> value;  ///< displacement [length] or total force [force]
+};
+
+/// Wall time spent so far [s].
+struct Timings {
+  Real assembly = 0;       ///< body and scatter
+  Real contact = 0;        ///< closest points, contact and friction
+  Real factorization = 0;  ///< numeric and, once, symbolic
+  Real solve = 0;          ///< forward and backward substitution
+};
+
+/// Adds the time of a scope to a counter.
+class Stopwatch {
+ public:
+  explicit Stopwatch(Real& counter) : counter_(counter), begin_(std::chrono::steady_clock::now()) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { counter_ += std::chrono::duration<Real>(std::chrono::steady_clock::now() - begin_).count(); }
+
+ private:
+  Real& counter_;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+/// The discrete balance of a scene: residual and tangent as a function of the nodal displacements (theory.md, eq. 1.1).
+/// Pattern, scatter maps and work space are made once, in the constructor.
+template <class Model>
+class System {
+  static_assert(CheckModel<Model>::ok);
+
+ public:
+  using BodyType = Body<Model>;
+  using Matrix = typename BodyType::Matrix;
+  static constexpr int dim = Model::Kinematics::dim;
+  static constexpr bool with_contact = has_contact<Model>;
+  using Pairs = Only<with_contact, std::vector<ContactPair<Model>>, Matrix>;
+
+  System(BodyType& body, Pairs& pairs, const std::vector<SideValue>& driven, const std::vector<SideValue>& loads)
+      : body_(body), pairs_(pairs) {
+    const Index components = body.mesh().node_count() * dim;
+    std::vector<bool> constrained(static_cast<std::size_t>(components), false);
+    for (const SideValue& d : driven) {
+      driven_.push_back({d.value, {}});
+      for (const Index n : body.mesh().side(d.side).nodes) {
+        const Index c = n * dim + d.component;
+        constrained[static_cast<std::size_t>(c)] = true;
+        driven_.back().components.push_back(c);
+      }
+    }
+    for (const SideValue& l : loads) {
+      loads_.push_back({l.value, {}, {}});
+      Real total = 0;
+      const auto& side = body.mesh().side(l.side);
+      for (const Index n : side.nodes) {
+        Real share = 0;
+        for (const auto& facet : side.facets) share += facet_share(body.mesh(), body.kinematics(), facet, n);
+        loads_.back().components.push_back(n * dim + l.component);
+        loads_.back().shares.push_back(share);
+        total += share;
+      }
+      for (Real& s : loads_.back().shares) s /= total;
+    }
+    dofs_ = Dofs(components, constrained);
+    matrix_.build(dofs_, [&](auto&& couple) {
+      for (Index e = 0; e < body.mesh().cell_count(); ++e) {
+        const auto c = body.components(e);
+        couple(std::span<const Index>(c));
+      }
+    });
+    body.connect(dofs_, matrix_);
+    if constexpr (with_contact)
+      for (auto& pair : pairs) pair.connect(dofs_, matrix_);
+    for (Field* f : {&internal_, &contact_, &external_}) f->setZero(components);
+    residual_.setZero(dofs_.unknowns());
+  }
+
+  const Dofs& dofs() const { return dofs_; }
+  SparseView matrix() const { return matrix_.view(); }
+  /// Increases when the pattern changes and the solver must analyse again.
+  Index pattern_revision() const { return pattern_revision_; }
+
+  /// Sets the driven and held components of a nodal field to their values at `time`.
+  Trouble impose(Real time, Field& u) const {
+    for (const Driven& d : driven_) {
+      const Real value = d.value ? d.value(time) : 0.0;
+      if (!std::isfinite(value)) return {Cause::not_finite, {Place::Kind::node, d.components.empty() ? -1 : d.components[0] / dim}};
+      for (const Index c : d.components) u[c] = value;
+    }
+    return {};
+  }
+
+  /// Evaluates residual and tangent at the displacements u, `time` and the increment dt that leads there. With
+  /// `driven`, the residual is the one to first order after those further increments of constrained components.
+  Trouble evaluate(const Field& u, Real time, Real dt, const Field* driven = nullptr) {
+    internal_.setZero();
+    matrix_.set_zero();
+    {
+      const Stopwatch watch(timings.assembly);
+      if (const Trouble t = body_.assemble(u, dt, driven, internal_, matrix_)) return t;
+    }
+    if constexpr (with_contact) {
+      const Stopwatch watch(timings.contact);
+      contact_.setZero();
+      for (auto& pair : pairs_)
+        if (const Trouble t = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, matrix_)) return t;
+    }
+    external_.setZero();
+    for (const Load& l : loads_) {
+      const Real value = l.value(time);
+      if (!std::isfinite(value)) return {Cause::not_finite, {Place::Kind::node, l.components.empty() ? -1 : l.components[0] / dim}};
+      for (std::size_t k = 0; k < l.components.size(); ++k) external_[l.components[k]] += l.shares[k] * value;
+    }
+    const Index n = dofs_.components();
+    for (Index i = 0; i < n; ++i)
+      if (dofs_.equation(i) != Dofs::constrained) residual_[dofs_.equation(i)] = internal_[i] + contact_[i] - external_[i];
+    norm_ = residual_.norm();
+    if (!std::isfinite(norm_)) return {Cause::not_finite, {}};
+    return {};
+  }
+
+  /// Residual of the unknowns in the last evaluation [force].
+  const Field& residual() const { return residual_; }
+  Real residual_norm() const { return norm_; }
+  /// What the residual is measured against: the largest of the norms of the internal, contact and external nodal
+  /// forces, those at supports included (theory.md, eq. 6.2).
+  Real force_scale() const { return std::max({internal_.norm(), contact_.norm(), external_.norm()}); }
+  /// Force of a support on the body, by nodal component; zero to the tolerance at free components.
+  Real reaction(Index component) const { return internal_[component] + contact_[component] - external_[component]; }
+  const Field& internal() const { return internal_; }
+
+  /// What all contact pairs did in the last evaluation.
+  ContactSummary contact_summary() const {
+    ContactSummary sum;
+    if constexpr (with_contact)
+      for (const auto& pair : pairs_) sum.merge(pair.summary());
+    return sum;
+  }
+
+  /// Makes the state of the last evaluation the converged one.
+  void commit() {
+    body_.commit();
+    if constexpr (with_contact)
+      for (auto& pair : pairs_) pair.commit();
+  }
+
+  Timings timings;
+
+ private:
+  struct Driven {
+    std::function<Real(Real)> value;  // empty: held at zero
+    std::vector<Index> components;
+  };
+  struct Load {
+    std::function<Real(Real)> value;
+    std::vector<Index> components;
+    std::vector<Real> shares;
+  };
+
+  BodyType& body_;
+  Pairs& pairs_;
+  Dofs dofs_;
+  Matrix matrix_;
+  std::vector<Driven> driven_;
+  std::vector<Load> loads_;
+  Field internal_, contact_, external_, residual_;
+  Real norm_ = 0;
+  Index pattern_revision_ = 1;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/types.hpp>
+
+#include <string>
+
+namespace stickslip {
+
+/// Why a computation stopped short of its end.
+enum class Cause {
+  none,              ///< it did not
+  element_inverted,  ///< a deformation gradient with no positive determinant
+  not_finite,        ///< a NaN or an infinity in a residual, a tangent, a load or a tool's position
+  material_failed,   ///< a material's own iteration did not converge
+  singular_matrix,   ///< the factorisation met a zero pivot: a rigid-body mode or a limit point
+  not_converged,     ///< the iteration limit was reached
+  stalled,           ///< no step along the Newton direction lowers the residual
+};
+
+/// The sentence part that names a cause.
+inline const char* describe(Cause cause) {
+  switch (cause) {
+    case Cause::none: return "nothing";
+    case Cause::element_inverted: return "an element turned inside out";
+    case Cause::not_finite: return "a value was not finite";
+    case Cause::material_failed: return "a material's return map did not converge";
+    case Cause::singular_matrix: return "the tangent matrix is singular";
+    case Cause::not_converged: return "the Newton iteration did not converge within its limit";
+    case Cause::stalled: return "the Newton iteration stalled";
+  }
+  return "an unknown cause";
+}
+
+/// Where in the model a failure arose.
+struct Place {
+  enum class Kind { nowhere, element, node, contact_node };
+  Kind kind = Kind::nowhere;
+  Index number = -1;
+};
+
+/// A failure below the level of a step: what happened, and where. Kernels return it; they neither throw nor print.
+struct Trouble {
+  Cause cause = Cause::none;
+  Place place{};
+  explicit operator bool() const { return cause != Cause::none; }
+};
+
+/// How a run ended. True when it reached its end; otherwise step, time, place and cause of the failure, and what was
+/// tried against it. The last converged state is in the problem still.
+struct [[nodiscard]] Outcome {
+  Trouble trouble{};
+  Index step = 0;       ///< number of the step that failed, from 1
+  Real time = 0;        ///< the last converged time
+  Real tried_step = 0;  ///< the smallest time increment that was tried
+  Index attempts = 0;   ///< attempts at the failed step
+
+  explicit operator bool() const { return trouble.cause == Cause::none; }
+
+  /// One sentence for a person.
+  std::string message() const {
+    if (*this) return "completed";
+    std::string text = "step " + std::to_string(step) + " after time " + std::to_string(time) +
+                       " failed: " + describe(trouble.cause);
+    if (trouble.place.kind == Place::Kind::element) text += " (element " + std::to_string(trouble.place.number) + ")";
+    if (trouble.place.kind == Place::Kind::node) text += " (node " + std::to_string(trouble.place.number) + ")";
+    if (trouble.place.kind == Place::Kind::contact_node)
+      text += " (contact node " + std::to_string(trouble.place.number) + ")";
+    return text + "; tried " + std::to_string(attempts) + " times down to a time increment of " +
+           std::to_string(tried_step);
+  }
+};
+
+}  // namespace stickslip

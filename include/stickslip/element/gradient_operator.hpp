@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/symmetry.hpp>
+#include <stickslip/policy/element.hpp>
+
+namespace stickslip {
+
+/// The linear operator B of a point, delta F = B delta u, applied without being formed (theory.md, eq. 2.3).
+
+/// Geometry of a point from the nodes' reference coordinates (one row a node).
+template <class Kinematics, class Cell>
+PointGeometry<Kinematics, Cell::nodes> point_geometry(const Kinematics& kinematics, const Mat<Real, Cell::nodes, Cell::dim>& X,
+                                                      const Vec<Real, Cell::dim>& xi, Real quadrature_weight) {
+  static_assert(Cell::dim == 2, "the inverse below is that of the plane");
+  const Mat<Real, Cell::nodes, 2> dN_dxi = Cell::gradient(xi);
+  const Vec<Real, Cell::nodes> N = Cell::shape(xi);
+  const Mat<Real, 2> jacobian = X.transpose() * dN_dxi;
+  const Real det = jacobian(0, 0) * jacobian(1, 1) - jacobian(0, 1) * jacobian(1, 0);
+  Mat<Real, 2> inverse;
+  inverse << jacobian(1, 1), -jacobian(0, 1), -jacobian(1, 0), jacobian(0, 0);
+  inverse /= det;
+  const Vec<Real, 2> place = X.transpose() * N;
+  PointGeometry<Kinematics, Cell::nodes> point;
+  point.dN_dX = dN_dxi * inverse;
+  if constexpr (Kinematics::hoop) point.N_over_R = N / place[0];
+  point.weight = quadrature_weight * det * kinematics.measure(place);
+  return point;
+}
+
+/// F = I + B u for the nodal displacements u of the element.
+template <class Kinematics, int nodes, class G, class S>
+Tensor<S, typename Kinematics::Shape> deformation_gradient(const PointGeometry<Kinematics, nodes, G>& point,
+                                                           const Vec<S, nodes * Kinematics::dim>& u) {
+  constexpr int dim = Kinematics::dim;
+  auto F = Tensor<S, typename Kinematics::Shape>::identity();
+  for (int a = 0; a < nodes; ++a) {
+    for (int i = 0; i < dim; ++i)
+      for (int J = 0; J < dim; ++J) F(i, J) += u[a * dim + i] * point.dN_dX(a, J);
+    if constexpr (Kinematics::hoop) F(2, 2) += u[a * dim] * point.N_over_R[a];
+  }
+  return F;
+}
+
+/// B^T P: the nodal forces that do the work of P.
+template <class Kinematics, int nodes, class G, class S>
+Vec<S, nodes * Kinematics::dim> pull_back(const PointGeometry<Kinematics, nodes, G>& point,
+                                          const Tensor<S, typename Kinematics::Shape>& P) {
+  constexpr int dim = Kinematics::dim;
+  Vec<S, nodes * dim> r;
+  for (int a = 0; a < nodes; ++a) {
+    for (int i = 0; i < dim; ++i) {
+      S sum = P(i, 0) * point.dN_dX(a, 0);
+      for (int J = 1; J < dim; ++J) sum += P(i, J) * point.dN_dX(a, J);
+      r[a * dim + i] = sum;
+    }
+    if constexpr (Kinematics::hoop) r[a * dim] += P(2, 2) * point.N_over_R[a];
+  }
+  return r;
+}
+
+/// K += B^T M B; of a symmetric M the lower triangle alone.
+template <Symmetry symmetry, class Kinematics, int nodes, class G, class S>
+void add_congruence(const PointGeometry<Kinematics, nodes, G>& point, const Moduli<S, typename Kinematics::Shape>& M,
+                    Mat<S, nodes * Kinematics::dim>& K) {
+  using Shape = typename Kinematics::Shape;
+  constexpr int dim = Kinematics::dim;
+  for (int b = 0; b < nodes; ++b)
+    for (int k = 0; k < dim; ++k) {
+      Vec<S, Shape::size> column = M.col(Shape::at(k, 0)) * point.dN_dX(b, 0);
+      for (int L = 1; L < dim; ++L) column += M.col(Shape::at(k, L)) * point.dN_dX(b, L);
+      if constexpr (Kinematics::hoop)
+        if (k == 0) column += M.col(Shape::at(2, 2)) * point.N_over_R[b];
+      for (int a = symmetry == Symmetry::symmetric ? b : 0; a < nodes; ++a) {
+        for (int i = 0; i < dim; ++i) {
+          S sum = point.dN_dX(a, 0) * column[Shape::at(i, 0)];
+          for (int J = 1; J < dim; ++J) sum += point.dN_dX(a, J) * column[Shape::at(i, J)];
+          K(a * dim + i, b * dim + k) += sum;
+        }
+        if constexpr (Kinematics::hoop) K(a * dim, b * dim + k) += point.N_over_R[a] * column[Shape::at(2, 2)];
+      }
+    }
+}
+
+/// K += left right^T; where the sum is known to be symmetric, the lower triangle alone.
+template <Symmetry symmetry, int n, class S>
+void add_dyad(const Vec<S, n>& left, const Vec<S, n>& right, Mat<S, n>& K) {
+  for (int j = 0; j < n; ++j)
+    for (int i = symmetry == Symmetry::symmetric ? j : 0; i < n; ++i) K(i, j) += left[i] * right[j];
+}
+
+/// Copies the lower triangle of K into the upper one. Through a copy: GCC 12.2 at -O2 miscompiles the loop in place.
+template <int n, class S>
+void mirror(Mat<S, n>& K) {
+  const Mat<S, n> lower = K;
+  K.template triangularView<Eigen::StrictlyUpper>() = lower.transpose();
+}
+
+}  // namespace stickslip

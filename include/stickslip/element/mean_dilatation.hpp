@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/element/gradient_operator.hpp>
+#include <stickslip/element/quad4.hpp>
+#include <stickslip/policy/material.hpp>
+
+#include <cmath>
+
+namespace stickslip {
+
+/// Q1/P0: the dilatation is the mean over the element, theta = v / V, and the material sees F_bar = (theta / J)^(1/3) F.
+/// Pressure and dilatation are condensed exactly: forces and tangent are the first and second derivative of one
+/// potential sum_p w_p W(F_bar_p(u)), so the tangent is symmetric whenever the material's is (theory.md, eq. 2.6-2.12;
+/// after Simo, Taylor & Pister 1985).
+template <class Cell_ = Quad4>
+struct MeanDilatation {
+  using Role = role::Element;
+  using Cell = Cell_;
+  static constexpr int dim = Cell::dim, nodes = Cell::nodes, points = Cell::points, dofs = nodes * dim;
+
+  template <class Kinematics, class G = Real>
+  using Geometry = std::array<PointGeometry<Kinematics, nodes, G>, points>;
+
+  /// The deformation gradients F_bar that the material sees at the points.
+  template <class Kinematics, class G, class S>
+  static std::array<Tensor<S, typename Kinematics::Shape>, points> deformation(
+      const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry, const Vec<S, dofs>& u) {
+    using std::pow;
+    std::array<Tensor<S, typename Kinematics::Shape>, points> F;
+    S volume = S(0), reference = S(0);
+    for (std::size_t p = 0; p < points; ++p) {
+      F[p] = deformation_gradient(geometry[p], u);
+      volume += determinant(F[p]) * geometry[p].weight;
+      reference += S(geometry[p].weight);
+    }
+    for (auto& f : F) f.v *= S(pow(volume / reference / determinant(f), Real(1) / 3));
+    return F;
+  }
+
+  /// Nodal forces and tangent of one element for nodal displacements u.
+  template <class Kinematics, class G, class Material, class State, class S>
+  static Cause evaluate(const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry, const Material& material,
+                        const Vec<S, dofs>& u, const std::array<State, points>& old, Real dt,
+                        ElementResult<S, dofs, points, State>& out) {
+    using std::pow;
+    using Shape = typename Kinematics::Shape;
+    constexpr Symmetry symmetry = Material::symmetry;
+    constexpr int size = Shape::size;
+
+    // Volumes, and their first derivatives: div_p = delta J_p / J_p, mean_div = delta theta / theta.
+    std::array<Tensor<S, Shape>, points> F, F_inverse;
+    std::array<S, points> J;
+    std::array<Vec<S, dofs>, points> div;
+    S reference = S(0), volume = S(0);
+    Vec<S, dofs> mean_div = Vec<S, dofs>::Zero();
+    for (std::size_t p = 0; p < points; ++p) {
+      F[p] = deformation_gradient(geometry[p], u);
+      J[p] = determinant(F[p]);
+      if (!(value_of(J[p]) > 0)) return Cause::element_inverted;
+      F_inverse[p] = inverse(F[p]);
+      div[p] = pull_back(geometry[p], transpose(F_inverse[p]));
+      const S v = J[p] * geometry[p].weight;
+      reference += S(geometry[p].weight);
+      volume += v;
+      mean_div += div[p] * v;
+    }
+    mean_div /= volume;
+    const S theta = volume / reference;
+
+    // Material, forces, and what of the tangent needs no sum over the points.
+    out.residual.setZero();
+    out.tangent.setZero();
+    std::array<Moduli<S, Shape>, points> M;
+    std::array<S, points> spherical;  // w_p tr(tau_p) / 3
+    S spherical_sum = S(0);
+    for (std::size_t p = 0; p < points; ++p) {
+      const S factor = pow(theta / J[p], Real(1) / 3);
+      Tensor<S, Shape> F_bar;
+      F_bar.v = F[p].v * factor;
+      const auto answer = material.respond(F_bar, old[p], dt);
+      if (answer.cause != Cause::none) return answer.cause;
+      out.states[p] = answer.state;
+
+      const S weight = S(geometry[p].weight);
+      const S trace_tau = answer.P.v.dot(F_bar.v) * weight;
+      const Vec<S, dofs> da = (mean_div - div[p]) * S(Real(1) / 3);  // delta ln factor
+      const Vec<S, dofs> stress_force = pull_back(geometry[p], answer.P) * S(weight * factor);
+      out.residual += stress_force + da * trace_tau;
+
+      const S squared = weight * factor * factor;
+      Tensor<S, Shape> moduli_F;
+      moduli_F.v = answer.dP_dF * F[p].v;
+      const S stretch = squared * F[p].v.dot(moduli_F.v) + trace_tau;
+      const Vec<S, dofs> left = stress_force + pull_back(geometry[p], moduli_F) * squared + da * (S(0.5) * stretch);
+      if constexpr (symmetry == Symmetry::symmetric) {
+        add_dyad<symmetry>(left, da, out.tangent);
+        add_dyad<symmetry>(da, left, out.tangent);
+      } else {
+        Tensor<S, Shape> F_moduli;
+        F_moduli.v = answer.dP_dF.transpose() * F[p].v;
+        const Vec<S, dofs> right = stress_force + pull_back(geometry[p], F_moduli) * squared + da * (S(0.5) * stretch);
+        add_dyad<symmetry>(left, da, out.tangent);
+        add_dyad<symmetry>(da, right, out.tangent);
+      }
+      M[p] = answer.dP_dF * squared;
+      spherical[p] = trace_tau / S(3);
+      spherical_sum += spherical[p];
+    }
+
+    // The second derivatives of ln theta and ln J.
+    for (std::size_t p = 0; p < points; ++p) {
+      const S share = J[p] * geometry[p].weight / volume * spherical_sum;
+      const S swirl = spherical[p] - share;
+      for (int a = 0; a < size; ++a) {
+        const auto [i, I] = Shape::pairs[std::size_t(a)];
+        for (int b = 0; b < size; ++b) {
+          const auto [k, K] = Shape::pairs[std::size_t(b)];
+          if (Shape::couples(I, k) && Shape::couples(K, i)) M[p](a, b) += swirl * F_inverse[p](I, k) * F_inverse[p](K, i);
+        }
+      }
+      add_congruence<symmetry>(geometry[p], M[p], out.tangent);
+      const Vec<S, dofs> scaled = div[p] * share;
+      add_dyad<symmetry>(scaled, div[p], out.tangent);
+    }
+    const Vec<S, dofs> scaled = mean_div * S(-spherical_sum);
+    add_dyad<symmetry>(scaled, mean_div, out.tangent);
+    if constexpr (symmetry == Symmetry::symmetric) mirror(out.tangent);
+    return Cause::none;
+  }
+};
+
+}  // namespace stickslip

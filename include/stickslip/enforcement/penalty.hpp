@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/policy/enforcement.hpp>
+
+#include <stdexcept>
+
+namespace stickslip {
+
+/// Penalty method: t_N = eps_C g in penetration (paper, eq. 5), eps_F the stiffness of sticking (eq. 12).
+struct Penalty {
+  using Role = role::Enforcement;
+  static constexpr bool active = true;
+  static constexpr Symmetry symmetry = Symmetry::symmetric;
+
+  Real normal = 0;      ///< eps_C [force / length, per `per`]
+  Real tangential = 0;  ///< eps_F [force / length, per `per`]
+  PenaltyPer per = PenaltyPer::unit_depth;
+
+  template <class S>
+  struct Memory {};
+
+  /// t_N at a gap that is not positive (theory.md, eq. 4.4).
+  template <class S>
+  NormalForce<S> normal_force(const S& gap, Real weight, const Memory<S>&) const {
+    return {gap * (normal * weight), S(normal * weight)};
+  }
+  Real stick_stiffness(Real weight) const { return tangential * weight; }
+
+  void validate() const {
+    if (!(normal > 0)) throw std::invalid_argument("penalty: the normal stiffness must be positive");
+    if (!(tangential >= 0)) throw std::invalid_argument("penalty: the tangential stiffness must not be negative");
+  }
+};
+
+}  // namespace stickslip

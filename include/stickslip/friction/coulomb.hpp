@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/friction/pressure_source.hpp>
+
+#include <stdexcept>
+
+namespace stickslip {
+
+/// Coulomb's bound mu p (paper, eq. 10).
+struct Coulomb {
+  using Role = role::Friction;
+  using Law = Coulomb;
+  using Pressure = CurrentPressure;
+  static constexpr bool active = true;
+  static constexpr bool depends_on_pressure = true;
+  static constexpr bool depends_on_slip = false;
+
+  Real mu = 0;  ///< friction coefficient [-]
+
+  template <class S>
+  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+    return {at.pressure * mu, S(mu), S(0)};
+  }
+  void validate() const {
+    if (!(mu >= 0)) throw std::invalid_argument("Coulomb friction: the coefficient mu must not be negative");
+  }
+};
+
+/// The paper's law: Coulomb's bound at the last converged normal force.
+using QuasiCoulomb = Quasi<Coulomb>;
+
+}  // namespace stickslip

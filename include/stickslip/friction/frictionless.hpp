@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/role.hpp>
+
+namespace stickslip {
+
+/// No friction: no bound, no memory, no tangential loop.
+struct Frictionless {
+  using Role = role::Friction;
+  static constexpr bool active = false;
+  using Law = Frictionless;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/types.hpp>
+
+#include <cmath>
+#include <concepts>
+#include <functional>
+#include <type_traits>
+#include <utility>
+
+namespace stickslip::rigid {
+
+/// Where a tool is: x = rotation * x_tool + translation.
+template <int dim>
+struct Pose {
+  Mat<Real, dim> rotation = Mat<Real, dim>::Identity();
+  Vec<Real, dim> translation = Vec<Real, dim>::Zero();
+
+  bool finite() const { return rotation.allFinite() && translation.allFinite(); }
+};
+
+/// Turn by `angle` [rad, counter-clockwise] about `centre`, then `translation`.
+inline Pose<2> turned(Real angle, const Vec<Real, 2>& centre, const Vec<Real, 2>& translation = Vec<Real, 2>::Zero()) {
+  Pose<2> pose;
+  pose.rotation << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  pose.translation = centre - pose.rotation * centre + translation;
+  return pose;
+}
+
+/// A tool's pose over time. Made of any function of time that gives a translation or a Pose; at rest by default.
+template <int dim>
+class Motion {
+ public:
+  Motion() noexcept {}  // not defaulted: GCC 12 breaks down on the member initialisers of an aggregate that holds one
+  template <class F>
+    requires std::invocable<const F&, Real> && (!std::same_as<F, Motion>)
+  Motion(F f) {  // NOLINT(google-explicit-constructor): a lambda is the usual argument
+    if constexpr (std::convertible_to<std::invoke_result_t<const F&, Real>, Pose<dim>>)
+      pose_ = std::move(f);
+    else
+      pose_ = [f = std::move(f)](Real t) {
+        Pose<dim> pose;
+        pose.translation = f(t);
+        return pose;
+      };
+  }
+  Pose<dim> at(Real time) const { return pose_ ? pose_(time) : Pose<dim>{}; }
+
+ private:
+  std::function<Pose<dim>(Real)> pose_;
+};
+
+}  // namespace stickslip::rigid

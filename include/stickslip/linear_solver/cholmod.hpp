@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/policy/linear_solver.hpp>
+
+#include <suitesparse/cholmod.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace stickslip {
+
+/// CHOLMOD's sparse Cholesky (supernodal or simplicial as it finds best). An indefinite matrix falls back to its
+/// simplicial L D L^T, which does not pivot: the solution is then checked against the matrix and refined, and refused if
+/// it stays wrong. Link stickslip::cholmod; note CHOLMOD's licence (LGPL, the supernodal part GPL).
+class Cholmod {
+ public:
+  using Role = role::LinearSolver;
+  static constexpr Symmetry accepts = Symmetry::symmetric;
+  static constexpr Symmetry storage = Symmetry::symmetric;
+
+  Cholmod() : common_(std::make_unique<cholmod_common>()) {
+    cholmod_start(common_.get());
+    common_->print = 0;
+    common_->error_handler = nullptr;
+  }
+  Cholmod(const Cholmod&) = delete;
+  Cholmod& operator=(const Cholmod&) = delete;
+  ~Cholmod() {
+    cholmod_free_factor(&factor_, common_.get());
+    cholmod_free_factor(&indefinite_factor_, common_.get());
+    cholmod_free_dense(&solution_, common_.get());
+    cholmod_free_dense(&work_y_, common_.get());
+    cholmod_free_dense(&work_e_, common_.get());
+    cholmod_finish(common_.get());
+  }
+
+  void analyze(const SparseView& pattern) {
+    cholmod_free_factor(&factor_, common_.get());
+    cholmod_free_factor(&indefinite_factor_, common_.get());
+    cholmod_sparse a = wrap(pattern);
+    a.xtype = CHOLMOD_PATTERN;
+    common_->supernodal = CHOLMOD_AUTO;
+    factor_ = cholmod_analyze(&a, common_.get());
+    residual_.setZero(pattern.size);
+    correction_.setZero(pattern.size);
+  }
+
+  Factorization factorize(const SparseView& matrix) {
+    if (!factor_) return Factorization::failed;
+    matrix_ = matrix;
+    cholmod_sparse a = wrap(matrix);
+    common_->final_ll = 0;
+    cholmod_factorize(&a, factor_, common_.get());
+    indefinite_ = false;
+    if (common_->status == CHOLMOD_OK && positive(*factor_)) return Factorization::done;
+    indefinite_ = true;
+    if (!indefinite_factor_) {
+      common_->supernodal = CHOLMOD_SIMPLICIAL;
+      indefinite_factor_ = cholmod_analyze(&a, common_.get());
+    }
+    if (!indefinite_factor_) return Factorization::failed;
+    cholmod_factorize(&a, indefinite_factor_, common_.get());
+    const bool good = common_->status == CHOLMOD_OK && indefinite_factor_->minor == indefinite_factor_->n;
+    return good ? Factorization::indefinite : Factorization::failed;
+  }
+
+  bool solve(const Real* right_hand_side, Real* solution) {
+    const Index n = matrix_.size;
+    if (!backsolve(right_hand_side, solution)) return false;
+    if (!indefinite_) return true;
+    const Eigen::Map<const Field> b(right_hand_side, n);
+    Eigen::Map<Field> x(solution, n);
+    for (int refinement = 0; refinement < 4; ++refinement) {
+      residual_ = b;
+      subtract_product(solution);
+      if (residual_.norm() <= 1e-12 * b.norm()) return true;
+      if (!backsolve(residual_.data(), correction_.data())) return false;
+      x += correction_;
+    }
+    residual_ = b;
+    subtract_product(solution);
+    return residual_.norm() <= 1e-8 * b.norm();
+  }
+
+ private:
+  static cholmod_sparse wrap(const SparseView& m) {
+    cholmod_sparse a{};
+    a.nrow = a.ncol = static_cast<std::size_t>(m.size);
+    a.nzmax = static_cast<std::size_t>(m.nonzeros());
+    // CHOLMOD reads them only, but takes no pointers to const.
+    a.p = const_cast<Index*>(m.column_start);
+    a.i = const_cast<Index*>(m.row);
+    a.x = const_cast<Real*>(m.values);
+    a.stype = -1;
+    a.itype = CHOLMOD_INT;
+    a.xtype = CHOLMOD_REAL;
+    a.dtype = CHOLMOD_DOUBLE;
+    a.sorted = 1;
+    a.packed = 1;
+    return a;
+  }
+
+  // A supernodal factor exists for positive matrices alone; a simplicial L D L^T shows its signs on the diagonal.
+  static bool positive(const cholmod_factor& f) {
+    if (f.minor < f.n) return false;
+    if (f.is_super || f.is_ll) return true;
+    const auto* start = static_cast<const Index*>(f.p);
+    const auto* x = static_cast<const Real*>(f.x);
+    for (std::size_t j = 0; j < f.n; ++j)
+      if (!(x[start[j]] > 0)) return false;
+    return true;
+  }
+
+  bool backsolve(const Real* b, Real* x) {
+    const auto n = static_cast<std::size_t>(matrix_.size);
+    cholmod_dense rhs{};
+    rhs.nrow = rhs.nzmax = rhs.d = n;
+    rhs.ncol = 1;
+    rhs.x = const_cast<Real*>(b);
+    rhs.xtype = CHOLMOD_REAL;
+    rhs.dtype = CHOLMOD_DOUBLE;
+    if (!cholmod_solve2(CHOLMOD_A, indefinite_ ? indefinite_factor_ : factor_, &rhs, nullptr, &solution_, nullptr, &work_y_, &work_e_, common_.get()))
+      return false;
+    std::copy_n(static_cast<const Real*>(solution_->x), n, x);
+    return true;
+  }
+
+  // residual_ -= A x, of the lower triangle.
+  void subtract_product(const Real* x) {
+    for (Index j = 0; j < matrix_.size; ++j)
+      for (Index k = matrix_.column_start[j]; k < matrix_.column_start[j + 1]; ++k) {
+        const Index i = matrix_.row[k];
+        residual_[i] -= matrix_.values[k] * x[j];
+        if (i != j) residual_[j] -= matrix_.values[k] * x[i];
+      }
+  }
+
+  std::unique_ptr<cholmod_common> common_;
+  cholmod_factor* factor_ = nullptr;
+  cholmod_factor* indefinite_factor_ = nullptr;
+  cholmod_dense* solution_ = nullptr;
+  cholmod_dense* work_y_ = nullptr;
+  cholmod_dense* work_e_ = nullptr;
+  SparseView matrix_{};
+  bool indefinite_ = false;
+  Field residual_, correction_;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/material/log_strain.hpp>
+#include <stickslip/policy/material.hpp>
+
+namespace stickslip {
+
+/// Hencky's hyperelastic law: W = bulk/2 (ln J)^2 + shear |dev e|^2, e = ln(b)/2 (theory.md, eq. 3.1-3.3). No memory.
+struct Hencky {
+  using Role = role::Material;
+  static constexpr Symmetry symmetry = Symmetry::symmetric;
+
+  Real young = 0;    ///< [stress]
+  Real poisson = 0;  ///< [-]
+
+  template <class S, class Shape>
+  struct State {};
+
+  template <class S, class Shape>
+  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>&, Real) const {
+    using std::log;
+    const auto [bulk, shear] = ElasticModuli::from(young, poisson);
+    const Spectral<S, Shape> b = spectral(product(F, transpose(F)));
+    Vec<S, 3> e;
+    for (int A = 0; A < 3; ++A) e[A] = S(0.5) * log(b.values[A]);
+    const S volumetric = e[0] + e[1] + e[2];
+    PrincipalStress<S> stress;
+    for (int A = 0; A < 3; ++A) {
+      stress.tau[A] = S(2 * shear) * e[A] + S(bulk - 2 * shear / 3) * volumetric;
+      for (int B = 0; B < 3; ++B) stress.dtau_de(A, B) = S(bulk - 2 * shear / 3 + (A == B ? 2 * shear : 0));
+    }
+    stress.secant = S(2 * shear);
+    MaterialResponse<S, Shape, State<S, Shape>> out;
+    from_principal(b, inverse(F), stress, out);
+    return out;
+  }
+
+  /// Stored energy per reference volume.
+  template <class S, class Shape>
+  S energy(const Tensor<S, Shape>& F, const State<S, Shape>&) const {
+    using std::log;
+    const auto [bulk, shear] = ElasticModuli::from(young, poisson);
+    const Spectral<S, Shape> b = spectral(product(F, transpose(F)));
+    S volumetric = S(0), square = S(0);
+    for (int A = 0; A < 3; ++A) {
+      const S e = S(0.5) * log(b.values[A]);
+      volumetric += e;
+      square += e * e;
+    }
+    return S(0.5 * bulk - shear / 3) * volumetric * volumetric + S(shear) * square;
+  }
+
+  void validate() const { ElasticModuli::validate(young, poisson); }
+};
+
+}  // namespace stickslip

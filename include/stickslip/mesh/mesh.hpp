@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/types.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stickslip {
+
+/// A named part of the boundary: facets as node lists, the body on the left of a walk along them, and their nodes once
+/// each, in the order of first appearance.
+template <int dim>
+struct Side {
+  static constexpr std::size_t facet_nodes = dim == 2 ? 2 : 4;
+  std::vector<std::array<Index, facet_nodes>> facets;
+  std::vector<Index> nodes;
+};
+
+/// A mesh of one kind of cell with named sides.
+template <int dim_, int nodes_per_cell_>
+struct Mesh {
+  static constexpr int dim = dim_;
+  static constexpr int nodes_per_cell = nodes_per_cell_;
+
+  std::vector<Vec<Real, dim>> nodes;                                               ///< reference coordinates [length]
+  std::vector<std::array<Index, static_cast<std::size_t>(nodes_per_cell)>> cells;  ///< node numbers, from 0
+  std::map<std::string, Side<dim>, std::less<>> sides;
+
+  Index node_count() const { return static_cast<Index>(nodes.size()); }
+  Index cell_count() const { return static_cast<Index>(cells.size()); }
+
+  /// The side called `name`; the error lists the names that there are.
+  const Side<dim>& side(const std::string& name) const {
+    const auto found = sides.find(name);
+    if (found != sides.end()) return found->second;
+    std::string known;
+    for (const auto& [other, side] : sides) known += (known.empty() ? "" : ", ") + other;
+    throw std::invalid_argument("the mesh has no side called \"" + name + "\"; it has: " + (known.empty() ? "none" : known));
+  }
+};
+
+namespace mesh {
+
+/// A structured rectangle: cells[0] x cells[1] quadrilaterals over [origin, origin + size].
+struct Rectangle {
+  Vec<Real, 2> origin = Vec<Real, 2>::Zero();  ///< [length]
+  Vec<Real, 2> size = Vec<Real, 2>::Ones();    ///< [length]
+  std::array<Index, 2> cells{1, 1};
+};
+
+/// Meshes a rectangle. Sides: left, right, bottom, top. Nodes are numbered along the direction with fewer cells first,
+/// which keeps the band of the matrices narrow.
+inline Mesh<2, 4> rectangle(const Rectangle& r) {
+  if (r.cells[0] < 1 || r.cells[1] < 1) throw std::invalid_argument("mesh rectangle: needs at least one cell in each direction");
+  if (!(r.size[0] > 0 && r.size[1] > 0) || !r.size.allFinite() || !r.origin.allFinite())
+    throw std::invalid_argument("mesh rectangle: the size must be positive and finite");
+  const Index nx = r.cells[0], ny = r.cells[1];
+  const bool y_first = ny <= nx;
+  const auto node = [&](Index i, Index j) { return y_first ? i * (ny + 1) + j : j * (nx + 1) + i; };
+
+  Mesh<2, 4> mesh;
+  mesh.nodes.resize(static_cast<std::size_t>((nx + 1) * (ny + 1)));
+  for (Index i = 0; i <= nx; ++i)
+    for (Index j = 0; j <= ny; ++j)
+      mesh.nodes[std::size_t(node(i, j))] = {r.origin[0] + r.size[0] * i / nx, r.origin[1] + r.size[1] * j / ny};
+  for (Index a = 0; a < (y_first ? nx : ny); ++a)
+    for (Index b = 0; b < (y_first ? ny : nx); ++b) {
+      const Index i = y_first ? a : b, j = y_first ? b : a;
+      mesh.cells.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+    }
+
+  const auto add_side = [&](const char* name, Index count, auto&& at) {
+    Side<2> side;
+    for (Index k = 0; k <= count; ++k) side.nodes.push_back(at(k));
+    for (Index k = 0; k < count; ++k) side.facets.push_back({at(k), at(k + 1)});
+    mesh.sides[name] = std::move(side);
+  };
+  add_side("bottom", nx, [&](Index k) { return node(k, 0); });
+  add_side("right", ny, [&](Index k) { return node(nx, k); });
+  add_side("top", nx, [&](Index k) { return node(nx - k, ny); });
+  add_side("left", ny, [&](Index k) { return node(0, ny - k); });
+  return mesh;
+}
+
+}  // namespace mesh
+}  // namespace stickslip

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/nothing.hpp>
+#include <stickslip/base/outcome.hpp>
+#include <stickslip/base/role.hpp>
+#include <stickslip/policy/kinematics.hpp>
+
+#include <array>
+#include <concepts>
+
+namespace stickslip {
+
+/// What one quadrature point of an element keeps of the reference mesh. `G` is the scalar of the geometry.
+template <class Kinematics, int nodes, class G = Real>
+struct PointGeometry {
+  using Shape = typename Kinematics::Shape;
+  static constexpr int dim = Kinematics::dim;
+  static constexpr int dofs = nodes * dim;
+
+  Mat<G, nodes, dim> dN_dX;  ///< reference gradients of the shape functions [1/length]
+  [[no_unique_address]] Only<Kinematics::hoop, Vec<G, nodes>, struct HoopTag> N_over_R;  ///< hoop operator [1/length]
+  G weight;                  ///< reference volume that the point stands for [length^3]
+};
+
+/// What an element returns: nodal forces, their derivative (both triangles) and the memory of its points.
+template <class S, int dofs, int points, class State>
+struct ElementResult {
+  Vec<S, dofs> residual;
+  Mat<S, dofs> tangent;
+  std::array<State, static_cast<std::size_t>(points)> states;
+};
+
+/// An element: a reference cell with its quadrature and the treatment of the volumetric part. `evaluate`, a template,
+/// is checked where the model is put together. docs/policies.md, section Element.
+template <class E>
+concept ElementPolicy = requires(const Mat<Real, E::nodes, E::dim>& X, const Vec<Real, E::dim>& xi) {
+  requires std::same_as<typename E::Role, role::Element>;
+  requires E::nodes > 0 && E::points > 0;
+  { E::Cell::shape(xi) } -> std::same_as<Vec<Real, E::nodes>>;
+  { E::Cell::gradient(xi) } -> std::same_as<Mat<Real, E::nodes, E::dim>>;
+  { E::Cell::quadrature() };
+};
+
+}  // namespace stickslip

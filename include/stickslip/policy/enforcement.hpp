@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/role.hpp>
+#include <stickslip/base/symmetry.hpp>
+#include <stickslip/base/types.hpp>
+
+#include <concepts>
+
+namespace stickslip {
+
+/// What one unit of a nodal stiffness stands for.
+enum class PenaltyPer {
+  unit_depth,  ///< a node per radian (axisymmetric) or per unit thickness (plane strain)
+  node,        ///< a node of the full turn or the full thickness
+  area,        ///< reference area that the node carries
+};
+
+/// Normal force of a node on the tool and its derivative.
+template <class S>
+struct NormalForce {
+  S value;  ///< t_N <= 0 in contact [force]
+  S d_gap;  ///< [force / length]
+};
+
+/// How contact is enforced. `Memory<S>` is what a node remembers of it, `weight` the measure behind PenaltyPer.
+/// docs/policies.md, section Enforcement.
+template <class E>
+concept EnforcementPolicy = requires(const E& enforcement, const Real& gap, Real weight) {
+  requires std::same_as<typename E::Role, role::Enforcement>;
+  requires !E::active || requires(const typename E::template Memory<Real>& memory) {
+    requires std::same_as<decltype(E::symmetry), const Symmetry>;
+    { enforcement.per } -> std::convertible_to<PenaltyPer>;
+    { enforcement.normal_force(gap, weight, memory) } -> std::same_as<NormalForce<Real>>;
+    { enforcement.stick_stiffness(weight) } -> std::same_as<Real>;
+  };
+};
+
+}  // namespace stickslip

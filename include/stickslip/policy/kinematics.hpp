@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/role.hpp>
+#include <stickslip/tensor/tensor.hpp>
+
+#include <concepts>
+
+namespace stickslip {
+
+/// How the section's displacement becomes a three-dimensional deformation gradient, and what volume stands behind it.
+/// docs/policies.md, section Kinematics.
+template <class K>
+concept KinematicsPolicy = requires(const K& kinematics, const Vec<Real, K::dim>& X) {
+  requires std::same_as<typename K::Role, role::Kinematics>;
+  requires std::same_as<decltype(K::hoop), const bool>;
+  requires K::Shape::dim == K::dim;
+  { kinematics.measure(X) } -> std::same_as<Real>;
+};
+
+}  // namespace stickslip

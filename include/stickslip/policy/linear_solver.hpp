@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/role.hpp>
+#include <stickslip/base/symmetry.hpp>
+#include <stickslip/base/types.hpp>
+
+#include <concepts>
+
+namespace stickslip {
+
+/// Compressed columns of a square matrix, rows ascending. A symmetric one holds its lower triangle only. `values` may
+/// be null where the pattern alone matters.
+struct SparseView {
+  Index size = 0;
+  const Index* column_start = nullptr;  ///< size + 1 entries
+  const Index* row = nullptr;
+  const Real* values = nullptr;
+  Symmetry symmetry = Symmetry::general;
+
+  Index nonzeros() const { return column_start[size]; }
+};
+
+/// How a factorisation went.
+enum class Factorization {
+  done,
+  indefinite,  ///< done, of a symmetric matrix that is not positive definite; the fallback, if any, has been taken
+  failed,      ///< no factor exists: singular to working precision
+};
+
+/// A direct or iterative solver of the linear systems of Newton's method. `analyze` sees the pattern once and stands
+/// while the pattern does. `accepts` is the widest symmetry of a system that it can solve, `storage` that of the
+/// matrices it wants to be handed. docs/policies.md, section Linear solver.
+template <class L>
+concept LinearSolverPolicy = requires(L& solver, const SparseView& matrix, const Real* right_hand_side, Real* solution) {
+  requires std::same_as<typename L::Role, role::LinearSolver>;
+  requires std::same_as<decltype(L::accepts), const Symmetry>;
+  requires std::same_as<decltype(L::storage), const Symmetry>;
+  { solver.analyze(matrix) };
+  { solver.factorize(matrix) } -> std::same_as<Factorization>;
+  { solver.solve(right_hand_side, solution) } -> std::same_as<bool>;
+};
+
+/// A choice that depends on the system: `For<Symmetry>` names the solver.
+template <class L>
+concept LinearSolverFamily = requires {
+  requires std::same_as<typename L::Role, role::LinearSolver>;
+  requires LinearSolverPolicy<typename L::template For<Symmetry::symmetric>>;
+  requires LinearSolverPolicy<typename L::template For<Symmetry::general>>;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/assembly/system.hpp>
+#include <stickslip/solve/newton.hpp>
+#include <stickslip/solve/report.hpp>
+#include <stickslip/solve/step_control.hpp>
+
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace stickslip {
+
+template <class Model>
+class Problem;
+
+/// A run in progress: an input range of converged steps. Each increment computes one step; the range ends at the end of
+/// the run or at a failure, which `outcome()` tells.
+template <class Model>
+class March {
+ public:
+  class Iterator {
+   public:
+    using iterator_concept = std::input_iterator_tag;
+    using value_type = StepReport;
+    using difference_type = std::ptrdiff_t;
+    const StepReport& operator*() const { return march_->step_; }
+    const StepReport* operator->() const { return &march_->step_; }
+    Iterator& operator++() {
+      march_->advance();
+      return *this;
+    }
+    void operator++(int) { ++*this; }
+    friend bool operator==(const Iterator& it, std::default_sentinel_t) { return it.at_end(); }
+
+   private:
+    friend class March;
+    explicit Iterator(March* march) : march_(march) {}
+    bool at_end() const { return march_->ended_; }
+    March* march_;
+  };
+
+  Iterator begin() {
+    if (!begun_) advance();
+    begun_ = true;
+    return Iterator(this);
+  }
+  std::default_sentinel_t end() const { return {}; }
+
+  /// Runs to the end without looking at the steps.
+  const Outcome& finish() {
+    for ([[maybe_unused]] const StepReport& step : *this) {
+    }
+    return outcome_;
+  }
+  /// How the run ended, or that it goes well so far.
+  const Outcome& outcome() const { return outcome_; }
+  const RunReport& report() const { return report_; }
+
+ private:
+  friend class Problem<Model>;
+  March(Problem<Model>& problem, const MarchOptions& options);
+  void advance();
+
+  Problem<Model>& problem_;
+  MarchOptions options_;
+  StepControl control_;
+  Newton<SolverOf<Model>> newton_;
+  StepReport step_{};
+  RunReport report_{};
+  Outcome outcome_{};
+  bool begun_ = false;
+  bool ended_ = false;
+};
+
+/// A scene of the bundle `Model`: body, tools, supports and loads, and its converged state. The bundle decides what
+/// there is (docs/policies.md); the parameters say how much.
+template <class Model>
+class Problem {
+  static_assert(CheckModel<Model>::ok);
+
+ public:
+  using BodyType = Body<Model>;
+  static constexpr int dim = Model::Kinematics::dim;
+  static constexpr bool with_contact = has_contact<Model>;
+  static constexpr bool symmetric_storage = matrix_storage<Model> == Symmetry::symmetric;
+
+  struct Parameters {
+    typename BodyType::MeshType body;
+    [[no_unique_address]] typename Model::Kinematics kinematics{};
+    typename Model::Material material{};
+    [[no_unique_address]] Only<with_contact, std::vector<Contact<Model>>, Problem> contacts{};
+  };
+
+  /// Throws std::invalid_argument, naming the input, before anything is computed.
+  explicit Problem(Parameters parameters) : body_(std::move(parameters.body), validated(parameters.kinematics), validated(parameters.material)) {
+    if constexpr (with_contact)
+      for (const Contact<Model>& c : parameters.contacts) {
+        for (const auto& pair : pairs_)
+          if (pair.name() == (c.name.empty() ? c.side : c.name)) throw std::invalid_argument("two contacts are called \"" + pair.name() + "\"; give them names");
+        pairs_.emplace_back(c, body_.mesh(), body_.kinematics());
+      }
+    u_.setZero(body_.mesh().node_count() * dim);
+    last_increment_ = u_;
+  }
+  Problem(const Problem&) = delete;
+  Problem& operator=(const Problem&) = delete;
+
+  /// Holds a displacement component of a side at zero.
+  Problem& hold(const std::string& side, Index component) { return drive(side, component, nullptr); }
+  /// Drives a displacement component of a side: value(time) [length].
+  Problem& drive(const std::string& side, Index component, std::function<Real(Real)> value) {
+    driven_.push_back(checked({side, component, std::move(value)}));
+    return *this;
+  }
+  /// Loads a side with a total dead force in one component, spread over its reference area: value(time) [force].
+  Problem& load(const std::string& side, Index component, std::function<Real(Real)> value) {
+    if (!value) throw std::invalid_argument("load on side \"" + side + "\": needs a function of time");
+    loads_.push_back(checked({side, component, std::move(value)}));
+    return *this;
+  }
+
+  /// Begins a run from the present state; the problem must outlive it.
+  March<Model> march(const MarchOptions& options) {
+    options.validate(time_);
+    return March<Model>(*this, options);
+  }
+
+  Real time() const { return time_; }
+  const BodyType& body() const { return body_; }
+  /// Converged nodal displacements, node * dim + component [length].
+  const Field& displacement() const { return u_; }
+  /// Displacement of a node [length].
+  Vec<Real, dim> displacement(Index node) const { return u_.template segment<dim>(node * dim); }
+  Index unknowns() const { return system_ ? system_->dofs().unknowns() : 0; }
+
+  /// The contact pair called `name`.
+  const ContactPair<Model>& contact(const std::string& name) const
+    requires with_contact
+  {
+    for (const auto& pair : pairs_)
+      if (pair.name() == name) return pair;
+    throw std::invalid_argument("there is no contact called \"" + name + "\"");
+  }
+  const auto& contacts() const
+    requires with_contact
+  {
+    return pairs_;
+  }
+  /// Force of the body on the tool of a contact [force]; in axisymmetry of the full turn.
+  Vec<Real, dim> contact_force(const std::string& name) const
+    requires with_contact
+  {
+    return contact(name).force();
+  }
+  /// Sum of the support forces on the body at a side, in one component [force].
+  Real reaction(const std::string& side, Index component) const {
+    Real sum = 0;
+    if (system_)
+      for (const Index n : body_.mesh().side(side).nodes) sum += reactions_[n * dim + component];
+    return sum;
+  }
+
+  /// Largest accumulated plastic strain of a point; 0 for a material that has none.
+  Real max_plastic_strain() const {
+    Real largest = 0;
+    if constexpr (requires(typename BodyType::State s) { s.plastic_strain; })
+      body_.visit_points(u_, [&](Index, int, const auto&, const auto& state, Real) { largest = std::max(largest, state.plastic_strain); });
+    return largest;
+  }
+
+ private:
+  friend class March<Model>;
+
+  template <class P>
+  static const P& validated(const P& parameters) {
+    if constexpr (requires { parameters.validate(); }) parameters.validate();
+    return parameters;
+  }
+  SideValue checked(SideValue value) {
+    (void)body_.mesh().side(value.side);
+    if (value.component < 0 || value.component >= dim)
+      throw std::invalid_argument("side \"" + value.side + "\": there is no component " + std::to_string(value.component));
+    system_.reset();  // supports decide the numbering
+    return value;
+  }
+
+  BodyType body_;
+  [[no_unique_address]] typename System<Model>::Pairs pairs_;
+  std::vector<SideValue> driven_, loads_;
+  std::unique_ptr<System<Model>> system_;
+  Field u_, last_increment_, reactions_;
+  Real time_ = 0;
+  Real last_dt_ = 0;  // 0: there is no increment to extrapolate
+};
+
+template <class Model>
+March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
+    : problem_(problem),
+      options_(options),
+      control_(options, problem.time_),
+      newton_(NewtonOptions{.tolerance = options.tolerance, .max_iterations = options.max_iterations, .line_search = options.line_search}) {
+  if (!problem.system_) {
+    problem.system_ = std::make_unique<System<Model>>(problem.body_, problem.pairs_, problem.driven_, problem.loads_);
+    problem.reactions_.setZero(problem.u_.size());
+    if constexpr (has_contact<Model>)
+      if (problem.time_ == 0)
+        for (auto& pair : problem.pairs_)
+          if (const Trouble t = pair.start(problem.body_.mesh(), problem.u_, problem.time_))
+            throw std::invalid_argument("contact \"" + pair.name() + "\": the tool's position or the distance to it is not finite at the start");
+  }
+}
+
+template <class Model>
+void March<Model>::advance() {
+  if (ended_ || control_.finished() || !outcome_) {
+    ended_ = true;
+    return;
+  }
+  System<Model>& system = *problem_.system_;
+  Field u = problem_.u_;
+  Field driven;
+  Index rejected = 0;
+  for (;;) {
+    const Real time = control_.next();
+    const Real dt = time - problem_.time_;
+    // Guess: the last increment again, or for lack of one the tangent at the converged state.
+    u = problem_.u_;
+    const bool extrapolate = problem_.last_dt_ > 0;
+    if (extrapolate) u += dt / problem_.last_dt_ * problem_.last_increment_;
+    Trouble trouble = system.impose(time, u);
+    NewtonReport newton;
+    if (trouble) {
+      newton.trouble = trouble;
+    } else if (extrapolate) {
+      newton = newton_.solve(system, u, time, dt);
+    } else {
+      driven = u - problem_.u_;
+      u = problem_.u_;
+      newton = newton_.solve(system, u, time, dt, driven.isZero(0) ? nullptr : &driven);
+    }
+    report_.iterations += newton.iterations;
+    report_.work = newton_.counts;
+    report_.timings = system.timings;
+    if (!newton.trouble) {
+      control_.accept(time, newton.iterations);
+      system.commit();
+      problem_.last_increment_ = u - problem_.u_;
+      problem_.last_dt_ = dt;
+      problem_.u_ = u;
+      problem_.time_ = time;
+      for (Index c = 0; c < system.dofs().components(); ++c) problem_.reactions_[c] = system.reaction(c);
+
+      step_ = {.number = ++report_.steps, .time = time, .dt = dt, .iterations = newton.iterations, .rejected = rejected, .residual = newton.residual};
+      step_.contact = system.contact_summary();
+      step_.lag = step_.contact.max_bound > 0 ? step_.contact.max_lag / step_.contact.max_bound : 0;
+      report_.max_penetration = std::max(report_.max_penetration, step_.contact.max_penetration);
+      report_.max_slip = std::max(report_.max_slip, step_.contact.max_slip);
+      report_.max_lag = std::max(report_.max_lag, step_.lag);
+      return;
+    }
+    ++rejected;
+    ++report_.rejected_steps;
+    control_.reject(time);
+    if (control_.too_small()) {
+      outcome_ = {.trouble = newton.trouble, .step = report_.steps + 1, .time = problem_.time_, .tried_step = dt, .attempts = rejected};
+      ended_ = true;
+      return;
+    }
+  }
+}
+
+}  // namespace stickslip

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/assembly/system.hpp>
+#include <stickslip/base/outcome.hpp>
+#include <stickslip/policy/linear_solver.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace stickslip {
+
+/// Parameters of Newton's method.
+struct NewtonOptions {
+  Real tolerance = 1e-5;     ///< on the residual's norm over the force scale (theory.md, eq. 6.2)
+  Index max_iterations = 20;
+  bool line_search = true;   ///< halve steps that do not lower the residual's norm
+  Index max_cuts = 5;        ///< of one step by the line search
+};
+
+/// What one solution of a step took.
+struct NewtonReport {
+  Trouble trouble{};
+  Index iterations = 0;                ///< linear solutions
+  Index line_search_cuts = 0;
+  Index indefinite_factorizations = 0;
+  Real residual = 0;                   ///< last residual over force scale [-]
+};
+
+/// Counts of work that outlive a step.
+struct WorkCounts {
+  Index factorizations = 0;
+  Index indefinite_factorizations = 0;
+  Index line_search_cuts = 0;
+};
+
+/// Newton's method with a line search on the norm of the residual. Work space and the solver's analysis outlast the
+/// calls; nothing is allocated in the loop.
+template <class Solver>
+class Newton {
+ public:
+  explicit Newton(const NewtonOptions& chosen = {}) : options(chosen) {}
+
+  NewtonOptions options;
+  WorkCounts counts;
+
+  /// Solves for the displacements u at `time`, from the guess that u holds. With `driven`, the first linear system
+  /// carries those increments of the constrained components as well (a tangent predictor). On failure u is spoilt.
+  template <class System>
+  NewtonReport solve(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
+    NewtonReport report;
+    prepare(system);
+    if ((report.trouble = system.evaluate(u, time, dt, driven))) return report;
+    Index stalls = 0;
+    for (;;) {
+      const Real norm = system.residual_norm();
+      const Real scale = system.force_scale();
+      report.residual = scale > 0 ? norm / scale : 0;
+      if (!driven && norm <= options.tolerance * scale) return report;
+      if (report.iterations == options.max_iterations) {
+        report.trouble.cause = Cause::not_converged;
+        return report;
+      }
+      if ((report.trouble = direction(system))) return report;
+      ++report.iterations;
+
+      if (driven) {  // the guess was not on the constraints yet: there is no residual to compare with
+        system.dofs().scatter_add(-1, step_, u);
+        u += *driven;
+        driven = nullptr;
+        if ((report.trouble = system.evaluate(u, time, dt))) return report;
+        continue;
+      }
+      start_ = u;
+      Real length = 1;
+      Trouble trouble;
+      for (Index cut = 0;; ++cut) {
+        u = start_;
+        system.dofs().scatter_add(-length, step_, u);
+        trouble = system.evaluate(u, time, dt);
+        const bool better = !trouble && system.residual_norm() < norm;
+        if (better || (!trouble && !options.line_search)) {
+          stalls = 0;
+          break;
+        }
+        if (cut == options.max_cuts) {
+          if (trouble) break;
+          ++stalls;
+          break;
+        }
+        ++report.line_search_cuts;
+        ++counts.line_search_cuts;
+        const Real ratio = trouble ? 4.0 : system.residual_norm() / norm;
+        length *= std::clamp(0.5 / ratio, 0.1, 0.5);
+      }
+      if (trouble || stalls > 1) {
+        report.trouble = trouble ? trouble : Trouble{Cause::stalled, {}};
+        return report;
+      }
+    }
+  }
+
+ private:
+  template <class System>
+  void prepare(System& system) {
+    if (analyzed_ == system.pattern_revision()) return;
+    const Stopwatch watch(system.timings.factorization);
+    solver_.analyze(system.matrix());
+    step_.setZero(system.dofs().unknowns());
+    start_.setZero(system.dofs().components());
+    analyzed_ = system.pattern_revision();
+  }
+
+  // step_ = K^-1 R.
+  template <class System>
+  Trouble direction(System& system) {
+    {
+      const Stopwatch watch(system.timings.factorization);
+      const Factorization f = solver_.factorize(system.matrix());
+      ++counts.factorizations;
+      if (f == Factorization::indefinite) ++counts.indefinite_factorizations;
+      if (f == Factorization::failed) return {Cause::singular_matrix, {}};
+    }
+    const Stopwatch watch(system.timings.solve);
+    if (!solver_.solve(system.residual().data(), step_.data()) || !step_.allFinite()) return {Cause::singular_matrix, {}};
+    return {};
+  }
+
+  Solver solver_;
+  Field step_, start_;
+  Index analyzed_ = 0;
+};
+
+}  // namespace stickslip

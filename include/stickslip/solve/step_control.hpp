@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/types.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace stickslip {
+
+/// How far a run goes and in what steps. Times are in the unit of the motions and drives.
+struct MarchOptions {
+  Real end = 1;
+  Index steps = 0;              ///< number of equal steps; 0: choose the size automatically
+  Real initial = 0;             ///< first automatic step; 0: end / 100
+  Real largest = 0;             ///< largest automatic step; 0: no limit
+  Real smallest = 0;            ///< below it a step is given up; 0: 1e-9 of the end
+  Index wanted_iterations = 4;  ///< automatic steps grow below this count and shrink above
+  Real tolerance = 1e-5;        ///< of Newton's method, see NewtonOptions
+  Index max_iterations = 20;    ///< of Newton's method
+  bool line_search = true;
+  std::vector<Real> stops{};    ///< times that a step must end at
+
+  void validate(Real now) const {
+    if (!(end > now) || !std::isfinite(end)) throw std::invalid_argument("march: the end must lie after the present time");
+    if (steps < 0) throw std::invalid_argument("march: the number of steps must not be negative");
+    if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument("march: the tolerance must lie between 0 and 1");
+    if (max_iterations < 1) throw std::invalid_argument("march: needs at least one iteration");
+    if (initial < 0 || largest < 0 || smallest < 0) throw std::invalid_argument("march: step sizes must not be negative");
+  }
+};
+
+/// Chooses step sizes: equal ones, or automatic ones by the count of iterations. Rejected steps are cut to a part and
+/// the size recovers afterwards. Every stop is met exactly.
+class StepControl {
+ public:
+  StepControl(const MarchOptions& options, Real begin) : options_(options), begin_(begin), time_(begin) {
+    const Real span = options.end - begin;
+    size_ = options.steps > 0 ? span / options.steps : options.initial > 0 ? options.initial : span / 100;
+    if (options_.largest > 0) size_ = std::min(size_, options_.largest);
+    smallest_ = options.smallest > 0 ? options.smallest : 1e-9 * span;
+    std::sort(options_.stops.begin(), options_.stops.end());
+  }
+
+  bool finished() const { return time_ >= options_.end; }
+  Real time() const { return time_; }
+  bool too_small() const { return size_ < smallest_; }
+
+  /// Where the next step ends.
+  Real next() const {
+    const Real wanted = time_ + size_;
+    Real limit = options_.end;
+    if (options_.steps > 0) limit = std::min(limit, grid(done_ + 1));
+    for (const Real stop : options_.stops)
+      if (stop > time_ + 1e-12 * options_.end) {
+        limit = std::min(limit, stop);
+        break;
+      }
+    // A remainder that would leave a sliver is taken along or shared.
+    if (wanted >= limit - 1e-9 * size_) return limit;
+    if (options_.steps == 0 && wanted > limit - 0.5 * size_) return time_ + 0.5 * (limit - time_);
+    return wanted;
+  }
+
+  void accept(Real time, Index iterations) {
+    const Real taken = time - time_;
+    time_ = time;
+    if (options_.steps > 0) {
+      if (time_ >= grid(done_ + 1) * (1 - 1e-12)) {
+        ++done_;
+        size_ = (options_.end - begin_) / options_.steps;
+      }
+      return;
+    }
+    const Real factor = std::clamp(std::sqrt(Real(options_.wanted_iterations) / std::max<Index>(iterations, 1)), 0.5, 1.5);
+    // A step shortened to meet a stop says nothing against the size, unless it was hard even so.
+    size_ = factor < 1 ? std::min(size_, taken) * factor : std::max(size_, taken * factor);
+    if (taken >= 0.999 * size_ && factor > 1) size_ = taken * factor;
+    if (options_.largest > 0) size_ = std::min(size_, options_.largest);
+  }
+
+  void reject(Real time) { size_ = 0.4 * (time - time_); }
+
+ private:
+  Real grid(Index k) const { return k >= options_.steps ? options_.end : begin_ + (options_.end - begin_) * k / options_.steps; }
+
+  MarchOptions options_;
+  Real begin_, time_, size_ = 0, smallest_ = 0;
+  Index done_ = 0;
+};
+
+}  // namespace stickslip

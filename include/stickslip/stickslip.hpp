@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+/// Everything that needs Eigen alone. Solvers of other libraries (linear_solver/cholmod.hpp, umfpack.hpp, banded.hpp),
+/// io/ and verify/ are included by those who use them.
+
+#include <stickslip/element/fully_integrated.hpp>
+#include <stickslip/element/mean_dilatation.hpp>
+#include <stickslip/enforcement/no_contact.hpp>
+#include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/coulomb.hpp>
+#include <stickslip/friction/frictionless.hpp>
+#include <stickslip/geometry/profile.hpp>
+#include <stickslip/inertia/quasistatic.hpp>
+#include <stickslip/kinematics/axisymmetric.hpp>
+#include <stickslip/kinematics/plane_strain.hpp>
+#include <stickslip/linear_solver/eigen_direct.hpp>
+#include <stickslip/material/finite_j2.hpp>
+#include <stickslip/material/hardening.hpp>
+#include <stickslip/material/hencky.hpp>
+#include <stickslip/problem.hpp>
+
+namespace stickslip {
+
+/// What a quasi-static bundle starts from; derive and override.
+struct QuasistaticDefaults {
+  using Kinematics = PlaneStrain;
+  using Element = MeanDilatation<Quad4>;
+  using Material = Hencky;
+  using Friction = Frictionless;
+  using Enforcement = Penalty;
+  using Inertia = Quasistatic;
+  using LinearSolver = EigenDirect;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/tensor/tensor.hpp>
+
+#include <cmath>
+
+namespace stickslip {
+
+/// Principal values and directions of a symmetric tensor: t = sum_A values[A] n_A n_A^T, n_A = column A of `directions`.
+template <class S, class Shape>
+struct Spectral {
+  Vec<S, 3> values;
+  Tensor<S, Shape> directions;
+};
+
+/// Closed form in the plane; the third direction is the normal. The smaller value comes from the determinant, so that a
+/// nearly singular positive tensor keeps its digits. Equal values give the coordinate axes.
+template <class S>
+Spectral<S, Planar> spectral(const Tensor<S, Planar>& t) {
+  using std::sqrt;
+  const S mean = S(0.5) * (t(0, 0) + t(1, 1));
+  const S half = S(0.5) * (t(0, 0) - t(1, 1));
+  const S shear = t(0, 1);
+  const S square = half * half + shear * shear;
+  Spectral<S, Planar> r;
+  r.values[2] = t(2, 2);
+  r.directions(2, 2) = S(1);
+  if (value_of(square) <= 0) {
+    r.values[0] = t(0, 0);
+    r.values[1] = t(1, 1);
+    r.directions(0, 0) = r.directions(1, 1) = S(1);
+    return r;
+  }
+  const S radius = sqrt(square);
+  const S large = value_of(mean) >= 0 ? S(mean + radius) : S(mean - radius);
+  const S small = (t(0, 0) * t(1, 1) - shear * shear) / large;
+  r.values[0] = value_of(mean) >= 0 ? large : small;
+  r.values[1] = value_of(mean) >= 0 ? small : large;
+  // Half-angle formulas, in the form that does not cancel.
+  S c, s;
+  if (value_of(half) >= 0) {
+    c = sqrt(S(0.5) * (radius + half) / radius);
+    s = shear / (S(2) * radius * c);
+  } else {
+    s = sqrt(S(0.5) * (radius - half) / radius);
+    c = shear / (S(2) * radius * s);
+  }
+  r.directions(0, 0) = c;
+  r.directions(1, 0) = s;
+  r.directions(0, 1) = -s;
+  r.directions(1, 1) = c;
+  return r;
+}
+
+/// Divided difference of the logarithm, (ln a - ln b) / (a - b) for a, b > 0, with its limit 1/b at a = b.
+template <class S>
+S log_difference(const S& a, const S& b) {
+  using std::log1p;
+  const S x = (a - b) / b;
+  const Real size = std::abs(value_of(x));
+  const S ratio = size < 1e-3 ? S(S(1) + x * (S(-1. / 2) + x * (S(1. / 3) + x * (S(-1. / 4) + x * (S(1. / 5) - x * S(1. / 6))))))
+                              : S(log1p(x) / x);
+  return ratio / b;
+}
+
+}  // namespace stickslip

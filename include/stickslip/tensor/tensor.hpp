@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/types.hpp>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace stickslip {
+
+/// Components that a second-order tensor can have in plane strain and axisymmetry: an in-plane 2 x 2 block and the
+/// component normal to the plane. Order: 11, 12, 21, 22, 33.
+struct Planar {
+  static constexpr int dim = 2;             ///< space dimension of the mesh
+  static constexpr int size = 5;            ///< components of a general tensor
+  static constexpr int symmetric_size = 4;  ///< components of a symmetric tensor, in the order 11, 22, 33, 12
+  static constexpr int at(int i, int j) { return i == 2 ? 4 : 2 * i + j; }
+  static constexpr std::array<std::pair<int, int>, size> pairs{{{0, 0}, {0, 1}, {1, 0}, {1, 1}, {2, 2}}};
+  static constexpr std::array<std::pair<int, int>, symmetric_size> symmetric_pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}}};
+  static constexpr bool couples(int i, int j) { return (i == 2) == (j == 2); }
+};
+
+/// Second-order tensor of the non-zero pattern `Shape`; `(i, j)` count from 0 to 2 and must be a pair of the shape.
+template <class S, class Shape>
+struct Tensor {
+  using Components = Vec<S, Shape::size>;
+  Components v = Components::Zero();
+
+  static Tensor identity() {
+    Tensor one;
+    for (int i = 0; i < 3; ++i) one(i, i) = S(1);
+    return one;
+  }
+  S& operator()(int i, int j) { return v[Shape::at(i, j)]; }
+  const S& operator()(int i, int j) const { return v[Shape::at(i, j)]; }
+};
+
+/// Symmetric second-order tensor, stored once: the memory of materials.
+template <class S, class Shape>
+struct SymmetricTensor {
+  using Components = Vec<S, Shape::symmetric_size>;
+  Components v = Components::Zero();
+
+  static SymmetricTensor identity() {
+    SymmetricTensor one;
+    for (int i = 0; i < 3; ++i) one.v[i] = S(1);
+    return one;
+  }
+  Tensor<S, Shape> full() const {
+    Tensor<S, Shape> t;
+    for (int a = 0; a < Shape::symmetric_size; ++a) {
+      const auto [i, j] = Shape::symmetric_pairs[static_cast<std::size_t>(a)];
+      t(i, j) = t(j, i) = v[a];
+    }
+    return t;
+  }
+};
+
+/// Derivative of one tensor by another: `(a, b)` is d(component a) / d(component b) in the order of `Shape::pairs`.
+template <class S, class Shape>
+using Moduli = Mat<S, Shape::size>;
+
+template <class S>
+S determinant(const Tensor<S, Planar>& t) {
+  return (t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0)) * t(2, 2);
+}
+
+template <class S>
+Tensor<S, Planar> inverse(const Tensor<S, Planar>& t) {
+  const S in_plane = S(1) / (t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0));
+  Tensor<S, Planar> r;
+  r(0, 0) = t(1, 1) * in_plane;
+  r(1, 1) = t(0, 0) * in_plane;
+  r(0, 1) = -t(0, 1) * in_plane;
+  r(1, 0) = -t(1, 0) * in_plane;
+  r(2, 2) = S(1) / t(2, 2);
+  return r;
+}
+
+template <class S, class Shape>
+Tensor<S, Shape> transpose(const Tensor<S, Shape>& t) {
+  Tensor<S, Shape> r;
+  for (const auto& [i, j] : Shape::pairs) r(j, i) = t(i, j);
+  return r;
+}
+
+/// a b, that is a_ik b_kj.
+template <class S, class Shape>
+Tensor<S, Shape> product(const Tensor<S, Shape>& a, const Tensor<S, Shape>& b) {
+  Tensor<S, Shape> r;
+  for (const auto& [i, j] : Shape::pairs)
+    for (int k = 0; k < 3; ++k)
+      if (Shape::couples(i, k)) r(i, j) += a(i, k) * b(k, j);
+  return r;
+}
+
+template <class S, class Shape>
+S trace(const Tensor<S, Shape>& t) {
+  return t(0, 0) + t(1, 1) + t(2, 2);
+}
+
+/// Kirchhoff stress tau = P F^T of the first Piola-Kirchhoff stress P (force per reference area; first index spatial).
+template <class S, class Shape>
+Tensor<S, Shape> kirchhoff(const Tensor<S, Shape>& P, const Tensor<S, Shape>& F) {
+  return product(P, transpose(F));
+}
+
+/// von Mises equivalent of a symmetric stress.
+template <class S, class Shape>
+S von_mises(const Tensor<S, Shape>& stress) {
+  using std::sqrt;
+  const S mean = trace(stress) / S(3);
+  S sum = S(0);
+  for (const auto& [i, j] : Shape::pairs) {
+    const S d = stress(i, j) - (i == j ? mean : S(0));
+    sum += d * d;
+  }
+  return sqrt(S(1.5) * sum);
+}
+
+}  // namespace stickslip
