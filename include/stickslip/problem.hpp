@@ -74,6 +74,7 @@ class March {
   StepReport step_{};
   RunReport report_{};
   Outcome outcome_{};
+  Field trial_, driven_;
   bool begun_ = false;
   bool ended_ = false;
 };
@@ -223,8 +224,7 @@ void March<Model>::advance() {
     return;
   }
   System<Model>& system = *problem_.system_;
-  Field u = problem_.u_;
-  Field driven;
+  Field& u = trial_;
   Index rejected = 0;
   for (;;) {
     const Real time = control_.next();
@@ -240,9 +240,9 @@ void March<Model>::advance() {
     } else if (extrapolate) {
       newton = newton_.solve(system, u, time, dt);
     } else {
-      driven = u - problem_.u_;
+      driven_ = u - problem_.u_;
       u = problem_.u_;
-      newton = newton_.solve(system, u, time, dt, driven.isZero(0) ? nullptr : &driven);
+      newton = newton_.solve(system, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
     }
     report_.iterations += newton.iterations;
     report_.work = newton_.counts;
