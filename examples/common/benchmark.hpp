@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSL-1.0
+// Runs a benchmark as the command line asks.
+#pragma once
+
+#include "dispatch.hpp"
+#include "options.hpp"
+#include "pictures.hpp"
+#include "record.hpp"
+
+#include <stickslip/io/vtu.hpp>
+#include <stickslip/problem.hpp>
+
+#include <functional>
+#include <optional>
+
+namespace examples {
+
+/// What is particular to a benchmark.
+template <class Model>
+struct Benchmark {
+  Labels labels;
+  stickslip::MarchOptions march{};                                    ///< end, first and largest step
+  std::function<double(const stickslip::Problem<Model>&)> travel_mm;  ///< abscissa of the history
+  std::function<double(const stickslip::Problem<Model>&)> force_N;    ///< ordinate of the history
+  double reach_mm = 100;                                              ///< how far the tools are drawn
+};
+
+/// Marches the problem to its end, keeps about 40 states as VTU, and writes what the options ask for.
+template <class Model>
+int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Model> benchmark) {
+  using namespace stickslip;
+  benchmark.march.steps = options.steps;
+  benchmark.march.tolerance = options.tolerance;
+  Record r{.labels = benchmark.labels, .symmetric_storage = Problem<Model>::symmetric_storage};
+  r.elements = problem.body().mesh().cell_count();
+  const auto note = [&] {
+    r.time_s.push_back(problem.time());
+    r.travel_mm.push_back(benchmark.travel_mm(problem));
+    r.force_N.push_back(benchmark.force_N(problem));
+  };
+  note();
+  const bool files = !options.output.empty();
+  std::optional<io::VtuSeries> series;
+  double next_frame = 0;
+  if (files) {
+    series.emplace(options.output, benchmark.labels.name);
+    series->write(problem);
+  }
+
+  Clock clock;
+  clock.start();
+  auto march = problem.march(benchmark.march);
+  for (const StepReport& step : march) {
+    clock.stop();
+    r.steps.push_back(step);
+    note();
+    show_progress(options, r, step.time / benchmark.march.end);
+    if (files && step.time >= next_frame) {
+      series->write(problem);
+      while (next_frame <= step.time) next_frame += benchmark.march.end / 40;
+    }
+    clock.start();
+  }
+  clock.stop();
+  end_progress(options);
+
+  r.unknowns = problem.unknowns();
+  r.outcome = march.outcome();
+  r.report = march.report();
+  r.max_plastic_strain = problem.max_plastic_strain();
+  r.seconds = clock.seconds();
+  if (files) {
+    write_mesh_data(options.output / "mesh.dat", problem);
+    write_tool_data(options.output / "tools.dat", problem, benchmark.reach_mm);
+  }
+  return conclude(options, r);
+}
+
+}  // namespace examples

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSL-1.0
+// From names on the command line to bundles put together at compile time.
+#pragma once
+
+#include "options.hpp"
+
+#include <stickslip/policy/model.hpp>
+
+#include <iostream>
+#include <iterator>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace examples {
+
+/// A policy under its command-line name.
+template <class Policy_>
+struct Named {
+  using Policy = Policy_;
+  const char* name;
+};
+
+/// A list of named policies: `constexpr Choices frictions{Named<Coulomb>{"coulomb"}, ...};`
+template <class... Policies>
+struct Choices {
+  explicit constexpr Choices(Named<Policies>... n) : names{n.name...} {}
+  const char* names[sizeof...(Policies)];
+
+  std::vector<std::string> list() const { return {std::begin(names), std::end(names)}; }
+  /// Calls visit(Named) for each.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    std::size_t i = 0;
+    (visit(Named<Policies>{names[i++]}), ...);
+  }
+};
+
+/// `Base` with another friction and solver.
+template <class Base, class Friction_, class Solver_>
+struct With : Base {
+  using Friction = Friction_;
+  using LinearSolver = Solver_;
+};
+
+/// True when the solver takes the systems that the friction makes.
+template <class Model>
+constexpr bool admitted = stickslip::system_symmetry<Model> == stickslip::Symmetry::symmetric ||
+                          stickslip::SolverOf<Model>::accepts == stickslip::Symmetry::general;
+
+/// Calls run.template operator()<Model>() for the bundle that the options name.
+template <class Base, class Frictions, class Solvers, class Run>
+int dispatch(const Options& options, const Frictions& frictions, const Solvers& solvers, Run&& run) {
+  int code = -1;
+  std::vector<std::string> able;
+  frictions.for_each([&]<class F>(Named<F> friction) {
+    if (options.friction != friction.name) return;
+    solvers.for_each([&]<class S>(Named<S> solver) {
+      using Model = With<Base, F, S>;
+      if constexpr (admitted<Model>) {
+        able.emplace_back(solver.name);
+        if (options.solver == solver.name) code = run.template operator()<Model>();
+      }
+    });
+  });
+  if (code < 0)
+    throw BadOption("--solver: \"" + options.solver + "\" takes symmetric systems only and --friction " + options.friction +
+                    " makes a non-symmetric one; it takes " + joined(able));
+  return code;
+}
+
+/// What --list prints: every friction law with the solvers that take it. Returns the exit code.
+template <class Base, class Frictions, class Solvers>
+int print_list(const Frictions& frictions, const Solvers& solvers) {
+  frictions.for_each([&]<class F>(Named<F> friction) {
+    std::cout << friction.name << ":";
+    solvers.for_each([&]<class S>(Named<S> solver) {
+      if constexpr (admitted<With<Base, F, S>>) std::cout << ' ' << solver.name;
+    });
+    std::cout << '\n';
+  });
+  return 0;
+}
+
+}  // namespace examples

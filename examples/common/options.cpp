@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "options.hpp"
+
+#include <boost/make_shared.hpp>
+#include <boost/program_options.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+
+namespace examples {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& accepted) {
+  throw BadOption("--" + option + ": \"" + value + "\" is not accepted; it takes " + accepted);
+}
+
+double number(const std::string& option, const std::string& text, double low, double high, const std::string& accepted) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || end != text.c_str() + text.size() || !std::isfinite(value) || value < low || value > high)
+    refuse(option, text, accepted);
+  return value;
+}
+
+int integer(const std::string& option, const std::string& text, int low, int high, const std::string& accepted) {
+  const double value = number(option, text, low, high, accepted);
+  if (value != std::floor(value)) refuse(option, text, accepted);
+  return static_cast<int>(value);
+}
+
+void known(const std::string& option, const std::string& name, const std::vector<std::string>& names) {
+  for (const auto& n : names)
+    if (n == name) return;
+  refuse(option, name, "one of: " + joined(names));
+}
+
+std::string short_number(double x) {
+  std::ostringstream text;
+  text << x;
+  return text.str();
+}
+
+}  // namespace
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::optional<Options> parse(int argc, char** argv, const Program& program) {
+  namespace po = boost::program_options;
+  Options o;
+  std::string mu, refine, steps, tolerance, output;
+  const std::string about_friction = "friction law: " + joined(program.frictions), about_solver = "linear solver: " + joined(program.solvers),
+                    about_mu = "friction coefficient (default " + short_number(program.mu) + "; 0 with frictionless)",
+                    about_tolerance = "of Newton's method, residual over force scale (default " + short_number(program.tolerance) + ")";
+  po::options_description description("Options");
+  const auto add = [&](const char* name, auto* target, const char* kind, const std::string& about) {
+    description.add(boost::make_shared<po::option_description>(name, po::value(target)->value_name(kind), about.c_str()));
+  };
+  add("friction", &o.friction, "NAME", about_friction + " (default " + program.frictions[0] + ")");
+  add("mu", &mu, "X", about_mu);
+  add("solver", &o.solver, "NAME", about_solver + " (default " + program.solvers[0] + ")");
+  add("refine", &refine, "N", "N times the elements in each direction (default 1)");
+  add("steps", &steps, "auto|N", "automatic steps, or N equal ones (default auto)");
+  add("tolerance", &tolerance, "X", about_tolerance);
+  add("output", &output, "DIR", "write VTU, CSV and pictures there");
+  add("json", &o.json, "FILE", "write the results there, - for standard output");
+  description.add_options()("quiet", po::bool_switch(&o.quiet), "no progress, no summary")("list", po::bool_switch(&o.list), "names of what is instantiated")(
+      "help", "this text");
+  po::variables_map values;
+  try {
+    const int exact = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    po::store(po::command_line_parser(argc, argv).options(description).positional({}).style(exact).run(), values);
+    po::notify(values);
+  } catch (const po::error& e) {
+    throw BadOption(std::string(e.what()) + "; --help lists the options");
+  }
+  if (values.count("help")) {
+    std::cout << program.name << ": " << program.title << "\n\n" << description;
+    return std::nullopt;
+  }
+  if (!values.count("friction")) o.friction = program.frictions[0];
+  if (!values.count("solver")) o.solver = program.solvers[0];
+  known("friction", o.friction, program.frictions);
+  known("solver", o.solver, program.solvers);
+  const bool frictionless = o.friction == "frictionless";
+  if (values.count("mu")) {
+    o.mu = number("mu", mu, 0, 10, "a number from 0 to 10");
+    if (frictionless && o.mu != 0) refuse("mu", mu, "nothing but 0 with --friction frictionless");
+  } else {
+    o.mu = frictionless ? 0 : program.mu;
+  }
+  if (values.count("refine")) o.refine = integer("refine", refine, 1, 1000, "a whole number from 1 to 1000");
+  if (values.count("steps") && steps != "auto") o.steps = integer("steps", steps, 1, 10'000'000, "auto or a whole number from 1 to 10000000");
+  o.tolerance = values.count("tolerance") ? number("tolerance", tolerance, 1e-14, 0.1, "a number from 1e-14 to 0.1") : program.tolerance;
+  if (values.count("output") && output.empty()) refuse("output", output, "the name of a folder");
+  o.output = output;
+  return o;
+}
+
+int guarded(const std::string& name, const std::function<int()>& body) {
+  try {
+    return body();
+  } catch (const BadOption& e) {
+    std::cerr << name << ": " << e.what() << '\n';
+    return 2;
+  } catch (const std::exception& e) {
+    std::cerr << name << ": " << e.what() << '\n';
+    return 1;
+  }
+}
+
+}  // namespace examples

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSL-1.0
+// The command line that all benchmarks share.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace examples {
+
+/// What the user asked for.
+struct Options {
+  std::string friction, solver;
+  double mu = 0;
+  int refine = 1;
+  int steps = 0;  ///< 0: automatic
+  double tolerance = 0;
+  std::filesystem::path output;  ///< empty: write no files
+  std::string json;              ///< empty: none; "-": standard output
+  bool quiet = false;
+  bool list = false;
+};
+
+/// What a program offers and what it takes where the user says nothing.
+struct Program {
+  std::string name, title;
+  std::vector<std::string> frictions, solvers;  ///< names; the first of each is the default
+  double mu = 0;
+  double tolerance = 1e-5;
+};
+
+/// A command line that cannot be taken; its text is one sentence. Programs end with exit code 2.
+struct BadOption : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Joins names for a sentence.
+std::string joined(const std::vector<std::string>& names);
+
+/// Reads the command line; empty when --help was answered.
+std::optional<Options> parse(int argc, char** argv, const Program& program);
+
+/// Runs the body of a main function: exit code 2 and one sentence for input that cannot be taken, 1 for a failure.
+int guarded(const std::string& name, const std::function<int()>& body);
+
+}  // namespace examples

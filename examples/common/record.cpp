@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "record.hpp"
+
+#include "pictures.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+
+namespace examples {
+
+namespace {
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+bool on_terminal(const Options& options) { return !options.quiet && isatty(STDERR_FILENO) != 0; }
+
+std::string short_number(double x, const char* format) {
+  char text[64];
+  std::snprintf(text, sizeof(text), format, x);
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Options& options, const Record& r) {
+  nlohmann::ordered_json j;
+  j["benchmark"] = r.labels.name;
+  j["friction"] = options.friction;
+  j["mu"] = options.mu;
+  j["solver"] = options.solver;
+  j["kinematics"] = r.labels.kinematics;
+  j["material"] = r.labels.material;
+  j["elements"] = r.elements;
+  j["unknowns"] = r.unknowns;
+  j["symmetric_storage"] = r.symmetric_storage;
+  j["completed"] = static_cast<bool>(r.outcome);
+  j["steps"] = r.report.steps;
+  j["iterations"] = r.report.iterations;
+  j["rejected_steps"] = r.report.rejected_steps;
+  j["factorizations"] = r.report.work.factorizations;
+  j["indefinite_factorizations"] = r.report.work.indefinite_factorizations;
+  j["seconds_total"] = r.seconds;
+  j["seconds_assembly"] = r.report.timings.assembly;
+  j["seconds_contact"] = r.report.timings.contact;
+  j["seconds_factorization"] = r.report.timings.factorization;
+  j["seconds_solve"] = r.report.timings.solve;
+  j["peak_memory_mb"] = peak_memory_mb();
+  j["max_penetration_mm"] = r.report.max_penetration;
+  j["max_slip_mm"] = r.report.max_slip;
+  j["max_plastic_strain"] = r.max_plastic_strain;
+  j["max_lag"] = r.report.max_lag;
+  j["final_force_N"] = r.force_N.back();
+  j["history"] = {{"time_s", r.time_s}, {"displacement_mm", r.travel_mm}, {"force_N", r.force_N}};
+  return j;
+}
+
+void write_history(const std::filesystem::path& path, const Record& r) {
+  std::ofstream csv(path);
+  csv.precision(12);
+  csv << "step,time_s,displacement_mm,force_N,dt_s,iterations,rejected,residual,nodes_in_contact,nodes_sliding,max_penetration_mm,max_slip_mm,lag\n"
+      << "0," << r.time_s[0] << ',' << r.travel_mm[0] << ',' << r.force_N[0] << ",0,0,0,0,0,0,0,0,0\n";
+  for (std::size_t i = 0; i < r.steps.size(); ++i) {
+    const auto& s = r.steps[i];
+    csv << s.number << ',' << r.time_s[i + 1] << ',' << r.travel_mm[i + 1] << ',' << r.force_N[i + 1] << ',' << s.dt << ',' << s.iterations << ','
+        << s.rejected << ',' << s.residual << ',' << s.contact.touching << ',' << s.contact.sliding << ',' << s.contact.max_penetration << ','
+        << s.contact.max_slip << ',' << s.lag << '\n';
+  }
+  if (!csv.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+void draw_results(const Options& options, const Record& r) {
+  const std::string title = r.labels.name + ", " + options.friction + ", mu = " + short_number(options.mu, "%.2f");
+  draw(options.output, "force",
+       "set datafile separator ','\nset title '" + title + "'\nset xlabel '" + r.labels.travel + " [mm]'\nset ylabel '" + r.labels.force +
+           " [kN]'\nset grid\nset key off\nplot 'history.csv' every ::1 using 3:($4/1000) with linespoints pt 7 ps 0.5 lw 2");
+  draw(options.output, "mesh",
+       "set title '" + title + ": deformed mesh at " + short_number(r.travel_mm.back(), "%.1f") +
+           " mm'\nset view map\nset size ratio -1\nset key off\nset cblabel 'plastic strain'\nset palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\nset xlabel 'r [mm]'\nset ylabel 'z [mm]'\n"
+           "set pm3d corners2color c1 border lc rgb '#404040' lw 0.4\n" +
+           r.labels.view + "\nsplot 'mesh.dat' using 1:2:3 with pm3d, 'tools.dat' using 1:2:(0) with lines lc rgb 'black' lw 2");
+}
+
+}  // namespace
+
+void draw(const std::filesystem::path& directory, const std::string& name, const std::string& body, int width, int height) {
+  const auto script = directory / (name + ".gp");
+  {
+    std::ofstream out(script);
+    for (const std::string kind : {"pngcairo", "svg"})
+      out << "set terminal " << kind << " size " << width << ',' << height << " noenhanced background rgb 'white' font 'sans,12'\nset output '" << name
+          << (kind == "svg" ? ".svg" : ".png") << "'\n"
+          << body << "\nunset output\n";
+    if (!out.flush()) throw std::runtime_error("cannot write " + script.string());
+  }
+  // The folder is reached as the working directory, so that no part of its name is read by a shell.
+  const auto here = std::filesystem::current_path();
+  std::filesystem::current_path(directory);
+  const int status = std::system(("gnuplot " + name + ".gp > " + name + ".log 2>&1").c_str());
+  std::filesystem::current_path(here);
+  const std::string log = name + ".log";
+  if (status != 0)
+    throw std::runtime_error("gnuplot could not draw " + (directory / name).string() + "; is the package gnuplot-nox installed? Its words are in " + log);
+  std::filesystem::remove(directory / log);
+}
+
+void show_progress(const Options& options, const Record& r, double fraction) {
+  if (on_terminal(options))
+    std::fprintf(stderr, "\r%s: %3.0f %%  step %d  travel %.3f mm  force %.0f N   ", r.labels.name.c_str(), 100 * fraction, r.steps.back().number,
+                 r.travel_mm.back(), r.force_N.back());
+}
+
+void end_progress(const Options& options) {
+  if (on_terminal(options)) std::fputc('\n', stderr);
+}
+
+int conclude(const Options& options, const Record& r) {
+  if (!options.json.empty()) {
+    const std::string text = to_json(options, r).dump(1) + "\n";
+    if (options.json == "-") {
+      std::cout << text;
+    } else {
+      std::ofstream out(options.json);
+      out << text;
+      if (!out.flush()) throw std::runtime_error("cannot write " + options.json);
+    }
+  }
+  if (!options.output.empty()) {
+    write_history(options.output / "history.csv", r);
+    draw_results(options, r);
+  }
+  if (!options.quiet && options.json != "-")
+    std::printf("%s %s mu %.2f %s: %d steps, %d iterations, %d rejected; %.1f mm, %.0f N; penetration %.4f mm, slip %.2f mm, lag %.3f; %.1f ms\n",
+                r.labels.name.c_str(), options.friction.c_str(), options.mu, options.solver.c_str(), r.report.steps, r.report.iterations,
+                r.report.rejected_steps, r.travel_mm.back(), r.force_N.back(), r.report.max_penetration, r.report.max_slip, r.report.max_lag, 1e3 * r.seconds);
+  if (!r.outcome) std::cerr << r.labels.name << ": " << r.outcome.message() << '\n';
+  return r.outcome ? 0 : 1;
+}
+
+}  // namespace examples

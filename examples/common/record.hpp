@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a benchmark run leaves behind, free of the bundle's type, and how it is written.
+#pragma once
+
+#include "options.hpp"
+
+#include <stickslip/base/outcome.hpp>
+#include <stickslip/solve/report.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace examples {
+
+/// Names and labels of a benchmark.
+struct Labels {
+  std::string name;                  ///< of the program
+  std::string kinematics, material;  ///< for the JSON
+  std::string travel, force;         ///< of the picture's axes, travel in mm and force in kN
+  std::string view;                  ///< gnuplot ranges of the deformed mesh
+};
+
+/// A run from start to end.
+struct Record {
+  Labels labels;
+  stickslip::Index elements = 0, unknowns = 0;
+  bool symmetric_storage = false;
+  stickslip::Outcome outcome{};
+  stickslip::RunReport report{};
+  std::vector<stickslip::StepReport> steps{};
+  std::vector<double> time_s{}, travel_mm{}, force_N{};  ///< one entry more than steps: the start
+  double max_plastic_strain = 0;
+  double seconds = 0;
+};
+
+/// Wall clock that can be stopped while files are written.
+class Clock {
+ public:
+  void start() { begin_ = std::chrono::steady_clock::now(); }
+  void stop() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+  double seconds() const { return seconds_; }
+
+ private:
+  std::chrono::steady_clock::time_point begin_{};
+  double seconds_ = 0;
+};
+
+/// The line of progress on a terminal; silent elsewhere.
+void show_progress(const Options& options, const Record& record, double fraction);
+void end_progress(const Options& options);
+
+/// Writes JSON, CSV, pictures and the one-line summary as far as they are asked for. Returns the exit code.
+int conclude(const Options& options, const Record& record);
+
+}  // namespace examples
