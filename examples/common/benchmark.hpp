@@ -42,9 +42,14 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   const bool files = !options.output.empty();
   std::optional<io::VtuSeries> series;
   double next_frame = 0;
+  double last_frame = 0;
+  const auto keep_state = [&] {
+    series->write(problem);
+    last_frame = problem.time();
+  };
   if (files) {
     series.emplace(options.output, benchmark.labels.name);
-    series->write(problem);
+    keep_state();
   }
 
   Clock clock;
@@ -56,7 +61,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
     note();
     show_progress(options, r, step.time / benchmark.march.end);
     if (files && step.time >= next_frame) {
-      series->write(problem);
+      keep_state();
       while (next_frame <= step.time) next_frame += benchmark.march.end / 40;
     }
     clock.start();
@@ -70,6 +75,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   r.max_plastic_strain = problem.max_plastic_strain();
   r.seconds = clock.seconds();
   if (files) {
+    if (last_frame < problem.time()) keep_state();
     write_mesh_data(options.output / "mesh.dat", problem);
     write_tool_data(options.output / "tools.dat", problem, benchmark.reach_mm);
   }

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSL-1.0
+"""The benchmarks' common command line: exit codes, sentences, JSON contract."""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+program = sys.argv[1]
+KEYS = """benchmark friction mu solver kinematics material elements unknowns symmetric_storage completed steps iterations
+rejected_steps factorizations indefinite_factorizations seconds_total seconds_assembly seconds_contact seconds_factorization
+seconds_solve peak_memory_mb max_penetration_mm max_slip_mm max_plastic_strain max_lag final_force_N history""".split()
+checks = 0
+
+
+def run(*options):
+    return subprocess.run([program, *options], capture_output=True, text=True, timeout=300)
+
+
+def check(condition, what):
+    global checks
+    checks += 1
+    assert condition, what
+
+
+# Bad values: exit code 2, one sentence that names option, value and what is accepted; nothing on standard output.
+for options, words in [
+    (["--friction", "tresca"], ["--friction", '"tresca"', "coulomb, quasi-coulomb, frictionless"]),
+    (["--solver", "magic"], ["--solver", '"magic"', "banded"]),
+    (["--solver", "cholmod", "--friction", "coulomb"], ["--solver", '"cholmod"', "symmetric", "umfpack"]),
+    (["--solver", "eigen-ldlt", "--friction", "coulomb"], ["--solver", '"eigen-ldlt"', "eigen-lu"]),
+    (["--mu", "-0.1"], ["--mu", '"-0.1"', "0 to 10"]),
+    (["--mu", "nan"], ["--mu", '"nan"']),
+    (["--mu", "0.1x"], ["--mu", '"0.1x"']),
+    (["--mu", ""], ["--mu"]),
+    (["--mu", "0.1", "--friction", "frictionless"], ["--mu", '"0.1"', "frictionless"]),
+    (["--refine", "0"], ["--refine", '"0"', "whole number"]),
+    (["--refine", "1.5"], ["--refine", '"1.5"']),
+    (["--steps", "soon"], ["--steps", '"soon"', "auto"]),
+    (["--steps", "-3"], ["--steps", '"-3"']),
+    (["--tolerance", "0"], ["--tolerance", '"0"', "1e-14"]),
+    (["--unknown"], ["--unknown", "--help"]),
+    (["--fric", "coulomb"], ["--fric"]),
+    (["stray"], ["--help"]),
+]:
+    done = run(*options)
+    check(done.returncode == 2, (options, done.returncode, done.stderr))
+    check(done.stdout == "", (options, done.stdout))
+    check(done.stderr.count("\n") == 1, (options, done.stderr))
+    for word in words:
+        check(word in done.stderr, (options, word, done.stderr))
+
+done = run("--help")
+check(done.returncode == 0 and all(f"--{o}" in done.stdout for o in "friction mu solver refine steps tolerance output json quiet list help".split()), done.stdout)
+
+# Every listed pair runs and keeps the contract; its answer does not depend on the solver.
+listed = dict(line.split(":") for line in run("--list").stdout.splitlines())
+check(set(listed) == {"frictionless", "coulomb", "quasi-coulomb"}, listed)
+check(listed["coulomb"].split() == ["banded", "eigen-lu", "umfpack"], listed)
+check(sorted(listed["quasi-coulomb"].split()) == sorted(["banded", "eigen-ldlt", "eigen-lu", "cholmod", "umfpack"]), listed)
+for friction, solvers in listed.items():
+    forces = []
+    for solver in solvers.split():
+        done = run("--friction", friction, "--solver", solver, "--json", "-", "--tolerance", "1e-9", "--steps", "100")
+        check(done.returncode == 0 and done.stderr == "", (friction, solver, done.stderr))
+        result = json.loads(done.stdout)
+        check(list(result) == KEYS, list(result))
+        check(result["benchmark"] == "osu_punch" and result["friction"] == friction and result["solver"] == solver, result["solver"])
+        check(result["mu"] == (0 if friction == "frictionless" else 0.15), result["mu"])
+        check(result["completed"] is True and result["steps"] == 100 and result["elements"] == 28 and result["unknowns"] == 81, "counts")
+        check(result["symmetric_storage"] == (solver in ("eigen-ldlt", "cholmod") or (solver == "banded" and friction != "coulomb")), (friction, solver))
+        lengths = {len(v) for v in result["history"].values()}
+        check(lengths == {101} and list(result["history"]) == ["time_s", "displacement_mm", "force_N"], lengths)
+        check(abs(result["history"]["displacement_mm"][-1] - 40) < 1e-12, "travel")
+        check(result["history"]["force_N"][-1] == result["final_force_N"] > 6e4, result["final_force_N"])
+        check((result["max_slip_mm"] == 0) == (friction == "frictionless"), result["max_slip_mm"])
+        check((result["max_lag"] > 0) == (friction == "quasi-coulomb"), result["max_lag"])
+        check(0 < result["max_penetration_mm"] < 0.1, result["max_penetration_mm"])
+        forces.append(result["final_force_N"])
+    check(max(forces) - min(forces) < 1e-6 * max(forces), (friction, forces))
+
+# A run that cannot reach its end: exit code 1, the reason, and all that was computed is there.
+with tempfile.TemporaryDirectory() as folder:
+    folder = pathlib.Path(folder)
+    done = run("--tolerance", "1e-14", "--json", str(folder / "run.json"), "--output", str(folder / "files"))
+    check(done.returncode == 1, done.returncode)
+    check("failed" in done.stderr and "step" in done.stderr, done.stderr)
+    result = json.loads((folder / "run.json").read_text())
+    check(result["completed"] is False and len(result["history"]["time_s"]) == result["steps"] + 1, result["steps"])
+    check((folder / "files" / "osu_punch.pvd").exists() and (folder / "files" / "force.png").exists(), "files of the part that ran")
+
+    # Output that cannot be written is named.
+    (folder / "file").write_text("")
+    done = run("--output", str(folder / "file" / "deeper"))
+    check(done.returncode == 1 and "file" in done.stderr, done.stderr)
+print(f"{checks} passed, 0 failed")
