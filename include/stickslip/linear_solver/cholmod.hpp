@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/linear_solver/refinement.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
 #include <suitesparse/cholmod.h>
@@ -42,8 +43,7 @@ class Cholmod {
     a.xtype = CHOLMOD_PATTERN;
     common_->supernodal = CHOLMOD_AUTO;
     factor_ = cholmod_analyze(&a, common_.get());
-    residual_.setZero(pattern.size);
-    correction_.setZero(pattern.size);
+    refinement_.resize(pattern.size);
   }
 
   Factorization factorize(const SparseView& matrix) {
@@ -66,21 +66,8 @@ class Cholmod {
   }
 
   bool solve(const Real* right_hand_side, Real* solution) {
-    const Index n = matrix_.size;
-    if (!backsolve(right_hand_side, solution)) return false;
-    if (!indefinite_) return true;
-    const Eigen::Map<const Field> b(right_hand_side, n);
-    Eigen::Map<Field> x(solution, n);
-    for (int refinement = 0; refinement < 4; ++refinement) {
-      residual_ = b;
-      subtract_product(solution);
-      if (residual_.norm() <= 1e-12 * b.norm()) return true;
-      if (!backsolve(residual_.data(), correction_.data())) return false;
-      x += correction_;
-    }
-    residual_ = b;
-    subtract_product(solution);
-    return residual_.norm() <= 1e-8 * b.norm();
+    if (!indefinite_) return backsolve(right_hand_side, solution);
+    return refinement_.solve(matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return backsolve(b, x); });
   }
 
  private:
@@ -126,16 +113,6 @@ class Cholmod {
     return true;
   }
 
-  // residual_ -= A x, of the lower triangle.
-  void subtract_product(const Real* x) {
-    for (Index j = 0; j < matrix_.size; ++j)
-      for (Index k = matrix_.column_start[j]; k < matrix_.column_start[j + 1]; ++k) {
-        const Index i = matrix_.row[k];
-        residual_[i] -= matrix_.values[k] * x[j];
-        if (i != j) residual_[j] -= matrix_.values[k] * x[i];
-      }
-  }
-
   std::unique_ptr<cholmod_common> common_;
   cholmod_factor* factor_ = nullptr;
   cholmod_factor* indefinite_factor_ = nullptr;
@@ -144,7 +121,7 @@ class Cholmod {
   cholmod_dense* work_e_ = nullptr;
   SparseView matrix_{};
   bool indefinite_ = false;
-  Field residual_, correction_;
+  SymmetricRefinement refinement_;
 };
 
 }  // namespace stickslip

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/policy/linear_solver.hpp>
+
+namespace stickslip {
+
+/// Iterative refinement for factors of indefinite symmetric matrices that were made without pivoting: such a factor may
+/// be poor, so its solution is held against the matrix, improved, and refused if it stays wrong.
+class SymmetricRefinement {
+ public:
+  void resize(Index size) {
+    residual_.setZero(size);
+    correction_.setZero(size);
+  }
+
+  /// Solves A x = b by `backsolve(b, x)`, which returns false when it cannot. `matrix` holds the lower triangle of A.
+  template <class Backsolve>
+  bool solve(const SparseView& matrix, const Real* right_hand_side, Real* solution, Backsolve&& backsolve) {
+    const Eigen::Map<const Field> b(right_hand_side, matrix.size);
+    Eigen::Map<Field> x(solution, matrix.size);
+    if (!backsolve(right_hand_side, solution)) return false;
+    for (int sweep = 0; sweep < 4; ++sweep) {
+      if (relative_residual(matrix, b, x) <= 1e-12) return true;
+      if (!backsolve(residual_.data(), correction_.data())) return false;
+      x += correction_;
+    }
+    return relative_residual(matrix, b, x) <= 1e-8;
+  }
+
+ private:
+  Real relative_residual(const SparseView& m, const Eigen::Map<const Field>& b, const Eigen::Map<Field>& x) {
+    residual_ = b;
+    for (Index j = 0; j < m.size; ++j)
+      for (Index k = m.column_start[j]; k < m.column_start[j + 1]; ++k) {
+        const Index i = m.row[k];
+        residual_[i] -= m.values[k] * x[j];
+        if (i != j) residual_[j] -= m.values[k] * x[i];
+      }
+    const Real size = b.norm();
+    return size > 0 ? residual_.norm() / size : 0;
+  }
+
+  Field residual_, correction_;
+};
+
+}  // namespace stickslip
