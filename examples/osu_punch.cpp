@@ -3,9 +3,9 @@
 // The OSU hemispherical punch (Lee, Wagoner & Nakamachi 1990).
 //
 // A round sheet of 1 mm, clamped at its rim, is stretched over a hemispherical punch of radius 50.8 mm by 40 mm. The
-// sheet wraps the punch from the pole outwards and bends over the fillet of the die. It is the first benchmark of García
-// Garino & Ponthot's paper on the Quasi-Coulomb law: the sheet is thin, the normal forces change slowly, and a friction
-// bound that lags one step behind hardly errs.
+// sheet wraps the punch from the pole outwards and bends over the fillet of the die. It is the first benchmark of
+// García Garino & Ponthot's paper on the Quasi-Coulomb law: the sheet is thin, the normal forces change slowly, and a
+// friction bound that lags one step behind hardly errs.
 //
 //        z |      . punch .          The punch comes down from above. The die stands below, its fillet of 6.35 mm ends
 //          |_____/_________|_____    where the sheet is clamped, at r = 59.18 mm.
@@ -27,24 +27,33 @@ struct Punch : QuasistaticDefaults {
   using Kinematics = Axisymmetric;
   using Material = FiniteJ2<PowerHardening>;
 };
-constexpr examples::Choices frictions{examples::Named<Coulomb>{"coulomb"}, examples::Named<QuasiCoulomb>{"quasi-coulomb"},
+constexpr examples::Choices frictions{examples::Named<Coulomb>{"coulomb"},
+                                      examples::Named<QuasiCoulomb>{"quasi-coulomb"},
                                       examples::Named<Frictionless>{"frictionless"}};
-constexpr examples::Choices solvers{examples::Named<Banded>{"banded"}, examples::Named<EigenLdlt>{"eigen-ldlt"}, examples::Named<EigenLu>{"eigen-lu"},
-                                    examples::Named<Cholmod>{"cholmod"}, examples::Named<Umfpack>{"umfpack"}};
+constexpr examples::Choices solvers{examples::Named<Banded>{"banded"}, examples::Named<EigenLdlt>{"eigen-ldlt"},
+                                    examples::Named<EigenLu>{"eigen-lu"}, examples::Named<Cholmod>{"cholmod"},
+                                    examples::Named<Umfpack>{"umfpack"}};
 
 // How much of it, decided at run time.
-constexpr Real punch_radius = 50.8, die_fillet = 6.35, rim = 59.18, thickness = 1.0, travel = 40.0;
+constexpr Real punch_radius = 50.8, die_fillet = 6.35, rim = 59.18, thickness = 1.0;
 
 template <class Model>
 int punch(const examples::Options& options) {
-  // The tools, walked with the sheet on the left: the punch from its flank over the pole, the die up its throat, over the
-  // fillet and outwards.
+  // The tools, walked with the sheet on the left: the punch from its flank over the pole, the die up its throat, over
+  // the fillet and outwards.
   const auto sphere = rigid::path({punch_radius, thickness + punch_radius}, {0, -1}).right(punch_radius, pi);
-  const auto die = rigid::path({rim - die_fillet, -100}, {0, 1}).straight(100 - die_fillet).right(die_fillet, pi / 2).straight(40);
-  const auto downwards = [](Real t) { return Vec<Real, 2>(0, -travel * t); };
+  const auto die =
+      rigid::path({rim - die_fillet, -100}, {0, 1}).straight(100 - die_fillet).right(die_fillet, pi / 2).straight(40);
+  const Real travel = options.parameters.at("travel");
+  const auto downwards = [travel](Real t) { return Vec<Real, 2>(0, -travel * t); };
 
-  Contact<Model> on_punch{.side = "top", .tool = sphere, .motion = downwards, .enforcement = {.normal = 1e5, .tangential = 1e4}, .name = "punch"};
-  Contact<Model> on_die{.side = "bottom", .tool = die, .enforcement = {.normal = 1e5, .tangential = 1e4}, .name = "die"};
+  Contact<Model> on_punch{.side = "top",
+                          .tool = sphere,
+                          .motion = downwards,
+                          .enforcement = {.normal = 1e5, .tangential = 1e4},
+                          .name = "punch"};
+  Contact<Model> on_die{
+      .side = "bottom", .tool = die, .enforcement = {.normal = 1e5, .tangential = 1e4}, .name = "die"};
   if constexpr (has_friction<Model>) on_punch.friction = on_die.friction = {.mu = options.mu};
 
   Problem<Model> sheet{{
@@ -61,22 +70,25 @@ int punch(const examples::Options& options) {
                                           .travel = "punch travel",
                                           .force = "punch force",
                                           .view = "set xrange [0:75]\nset yrange [-50:20]"},
-                               .march = {.end = 1, .initial = 0.1 / travel, .largest = 0.02},
-                               .travel_mm = [](const Problem<Model>& p) { return travel * p.time(); },
+                               .march = {.end = 1, .initial = 0.1 / travel, .largest = 0.8 / travel},
+                               .travel_mm = [travel](const Problem<Model>& p) { return travel * p.time(); },
                                .force_N = [](const Problem<Model>& p) { return p.contact_force("punch")[1]; },
                                .reach_mm = 60});
 }
 
 int main(int argc, char** argv) {
-  const examples::Program program{.name = "osu_punch",
-                                  .title = "a clamped sheet stretched over a hemispherical punch",
-                                  .frictions = frictions.list(),
-                                  .solvers = solvers.list(),
-                                  .mu = 0.15};
+  const examples::Program program{
+      .name = "osu_punch",
+      .title = "a clamped sheet stretched over a hemispherical punch",
+      .frictions = frictions.list(),
+      .solvers = solvers.list(),
+      .mu = 0.15,
+      .parameters = {{.name = "travel", .about = "punch travel in mm", .value = 40, .low = 1, .high = 500}}};
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;
     if (options->list) return examples::print_list<Punch>(frictions, solvers);
-    return examples::dispatch<Punch>(*options, frictions, solvers, [&]<class Model>() { return punch<Model>(*options); });
+    return examples::dispatch<Punch>(*options, frictions, solvers,
+                                     [&]<class Model>() { return punch<Model>(*options); });
   });
 }

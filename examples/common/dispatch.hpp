@@ -64,8 +64,8 @@ int dispatch(const Options& options, const Frictions& frictions, const Solvers& 
     });
   });
   if (code < 0)
-    throw BadOption("--solver: \"" + options.solver + "\" takes symmetric systems only and --friction " + options.friction +
-                    " makes a non-symmetric one; it takes " + joined(able));
+    throw BadOption("--solver: \"" + options.solver + "\" takes symmetric systems only and --friction " +
+                    options.friction + " makes a non-symmetric one; it takes " + joined(able));
   return code;
 }
 

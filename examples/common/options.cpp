@@ -4,6 +4,7 @@
 #include <boost/make_shared.hpp>
 #include <boost/program_options.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -17,7 +18,8 @@ namespace {
   throw BadOption("--" + option + ": \"" + value + "\" is not accepted; it takes " + accepted);
 }
 
-double number(const std::string& option, const std::string& text, double low, double high, const std::string& accepted) {
+double number(const std::string& option, const std::string& text, double low, double high,
+              const std::string& accepted) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   if (text.empty() || end != text.c_str() + text.size() || !std::isfinite(value) || value < low || value > high)
@@ -55,12 +57,15 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
   namespace po = boost::program_options;
   Options o;
   std::string mu, refine, steps, tolerance, output;
-  const std::string about_friction = "friction law: " + joined(program.frictions), about_solver = "linear solver: " + joined(program.solvers),
+  const std::string about_friction = "friction law: " + joined(program.frictions),
+                    about_solver = "linear solver: " + joined(program.solvers),
                     about_mu = "friction coefficient (default " + short_number(program.mu) + "; 0 with frictionless)",
-                    about_tolerance = "of Newton's method, residual over force scale (default " + short_number(program.tolerance) + ")";
+                    about_tolerance = "of Newton's method, residual over force scale (default " +
+                                      short_number(program.tolerance) + ")";
   po::options_description description("Options");
   const auto add = [&](const char* name, auto* target, const char* kind, const std::string& about) {
-    description.add(boost::make_shared<po::option_description>(name, po::value(target)->value_name(kind), about.c_str()));
+    description.add(
+        boost::make_shared<po::option_description>(name, po::value(target)->value_name(kind), about.c_str()));
   };
   add("friction", &o.friction, "NAME", about_friction + " (default " + program.frictions[0] + ")");
   add("mu", &mu, "X", about_mu);
@@ -70,8 +75,15 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
   add("tolerance", &tolerance, "X", about_tolerance);
   add("output", &output, "DIR", "write VTU, CSV and pictures there");
   add("json", &o.json, "FILE", "write the results there, - for standard output");
-  description.add_options()("quiet", po::bool_switch(&o.quiet), "no progress, no summary")("list", po::bool_switch(&o.list), "names of what is instantiated")(
-      "help", "this text");
+  std::map<std::string, std::string> given;
+  for (const Parameter& p : program.parameters) {
+    const std::string kind = p.names.empty() ? "X" : "NAME",
+                      standard = p.names.empty() ? short_number(p.value) : p.names[static_cast<std::size_t>(p.value)];
+    const std::string choice = p.names.empty() ? "" : ": " + joined(p.names);
+    add(p.name.c_str(), &given[p.name], kind.c_str(), p.about + choice + " (default " + standard + ")");
+  }
+  description.add_options()("quiet", po::bool_switch(&o.quiet), "no progress, no summary")(
+      "list", po::bool_switch(&o.list), "names of what is instantiated")("help", "this text");
   po::variables_map values;
   try {
     const int exact = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
@@ -96,10 +108,24 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
     o.mu = frictionless ? 0 : program.mu;
   }
   if (values.count("refine")) o.refine = integer("refine", refine, 1, 1000, "a whole number from 1 to 1000");
-  if (values.count("steps") && steps != "auto") o.steps = integer("steps", steps, 1, 10'000'000, "auto or a whole number from 1 to 10000000");
-  o.tolerance = values.count("tolerance") ? number("tolerance", tolerance, 1e-14, 0.1, "a number from 1e-14 to 0.1") : program.tolerance;
+  if (values.count("steps") && steps != "auto")
+    o.steps = integer("steps", steps, 1, 10'000'000, "auto or a whole number from 1 to 10000000");
+  o.tolerance = values.count("tolerance") ? number("tolerance", tolerance, 1e-14, 0.1, "a number from 1e-14 to 0.1")
+                                          : program.tolerance;
   if (values.count("output") && output.empty()) refuse("output", output, "the name of a folder");
   o.output = output;
+  for (const Parameter& p : program.parameters) {
+    double& value = o.parameters[p.name] = p.value;
+    if (!values.count(p.name)) continue;
+    const std::string& text = given[p.name];
+    if (p.names.empty()) {
+      value =
+          number(p.name, text, p.low, p.high, "a number from " + short_number(p.low) + " to " + short_number(p.high));
+    } else {
+      known(p.name, text, p.names);
+      value = static_cast<double>(std::find(p.names.begin(), p.names.end(), text) - p.names.begin());
+    }
+  }
   return o;
 }
 

@@ -4,12 +4,22 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace examples {
+
+/// A parameter that one benchmark has besides the common ones: a number in a range, or one of a few names, of which
+/// the value is the position.
+struct Parameter {
+  std::string name, about;
+  double value = 0;  ///< default
+  double low = 0, high = 0;
+  std::vector<std::string> names{};
+};
 
 /// What the user asked for.
 struct Options {
@@ -22,6 +32,7 @@ struct Options {
   std::string json;              ///< empty: none; "-": standard output
   bool quiet = false;
   bool list = false;
+  std::map<std::string, double> parameters;  ///< of the benchmark, by name
 };
 
 /// What a program offers and what it takes where the user says nothing.
@@ -30,6 +41,7 @@ struct Program {
   std::vector<std::string> frictions, solvers;  ///< names; the first of each is the default
   double mu = 0;
   double tolerance = 1e-5;
+  std::vector<Parameter> parameters{};
 };
 
 /// A command line that cannot be taken; its text is one sentence. Programs end with exit code 2.

@@ -11,9 +11,10 @@
 
 namespace examples {
 
-/// Writes `NAME.gp` into the directory and runs gnuplot on it for a PNG and an SVG. `body` is what follows the set-up of
-/// the terminal. Throws std::runtime_error when gnuplot is missing or refuses.
-void draw(const std::filesystem::path& directory, const std::string& name, const std::string& body, int width = 900, int height = 600);
+/// Writes `NAME.gp` into the directory and runs gnuplot on it for a PNG and an SVG. `body` is what follows the set-up
+/// of the terminal. Throws std::runtime_error when gnuplot is missing or refuses.
+void draw(const std::filesystem::path& directory, const std::string& name, const std::string& body, int width = 900,
+          int height = 600);
 
 /// Data of the deformed mesh, a gnuplot pm3d patch a cell: x, y, plastic strain (mean over the points).
 template <class Model>
@@ -21,10 +22,11 @@ void write_mesh_data(const std::filesystem::path& path, const stickslip::Problem
   const auto& mesh = problem.body().mesh();
   std::vector<double> value(mesh.cells.size(), 0.0), volume(mesh.cells.size(), 0.0);
   if constexpr (requires(typename stickslip::Problem<Model>::BodyType::State s) { s.plastic_strain; })
-    problem.body().visit_points(problem.displacement(), [&](stickslip::Index e, int, const auto&, const auto& state, double weight) {
-      value[static_cast<std::size_t>(e)] += weight * state.plastic_strain;
-      volume[static_cast<std::size_t>(e)] += weight;
-    });
+    problem.body().visit_points(problem.displacement(),
+                                [&](stickslip::Index e, int, const auto&, const auto& state, double weight) {
+                                  value[static_cast<std::size_t>(e)] += weight * state.plastic_strain;
+                                  volume[static_cast<std::size_t>(e)] += weight;
+                                });
   std::ofstream out(path);
   out << "# x y plastic_strain: one patch a cell\n";
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {

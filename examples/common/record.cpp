@@ -24,7 +24,9 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-bool on_terminal(const Options& options) { return !options.quiet && isatty(STDERR_FILENO) != 0; }
+bool on_terminal(const Options& options) {
+  return !options.quiet && isatty(STDERR_FILENO) != 0;
+}
 
 std::string short_number(double x, const char* format) {
   char text[64];
@@ -67,13 +69,14 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
 void write_history(const std::filesystem::path& path, const Record& r) {
   std::ofstream csv(path);
   csv.precision(12);
-  csv << "step,time_s,displacement_mm,force_N,dt_s,iterations,rejected,residual,nodes_in_contact,nodes_sliding,max_penetration_mm,max_slip_mm,lag\n"
+  csv << "step,time_s,displacement_mm,force_N,dt_s,iterations,rejected,residual,nodes_in_contact,nodes_sliding,max_"
+         "penetration_mm,max_slip_mm,lag\n"
       << "0," << r.time_s[0] << ',' << r.travel_mm[0] << ',' << r.force_N[0] << ",0,0,0,0,0,0,0,0,0\n";
   for (std::size_t i = 0; i < r.steps.size(); ++i) {
     const auto& s = r.steps[i];
-    csv << s.number << ',' << r.time_s[i + 1] << ',' << r.travel_mm[i + 1] << ',' << r.force_N[i + 1] << ',' << s.dt << ',' << s.iterations << ','
-        << s.rejected << ',' << s.residual << ',' << s.contact.touching << ',' << s.contact.sliding << ',' << s.contact.max_penetration << ','
-        << s.contact.max_slip << ',' << s.lag << '\n';
+    csv << s.number << ',' << r.time_s[i + 1] << ',' << r.travel_mm[i + 1] << ',' << r.force_N[i + 1] << ',' << s.dt
+        << ',' << s.iterations << ',' << s.rejected << ',' << s.residual << ',' << s.contact.touching << ','
+        << s.contact.sliding << ',' << s.contact.max_penetration << ',' << s.contact.max_slip << ',' << s.lag << '\n';
   }
   if (!csv.flush()) throw std::runtime_error("cannot write " + path.string());
 }
@@ -81,23 +84,29 @@ void write_history(const std::filesystem::path& path, const Record& r) {
 void draw_results(const Options& options, const Record& r) {
   const std::string title = r.labels.name + ", " + options.friction + ", mu = " + short_number(options.mu, "%.2f");
   draw(options.output, "force",
-       "set datafile separator ','\nset title '" + title + "'\nset xlabel '" + r.labels.travel + " [mm]'\nset ylabel '" + r.labels.force +
-           " [kN]'\nset grid\nset key off\nplot 'history.csv' every ::1 using 3:($4/1000) with linespoints pt 7 ps 0.5 lw 2");
+       "set datafile separator ','\nset title '" + title + "'\nset xlabel '" + r.labels.travel +
+           " [mm]'\nset ylabel '" + r.labels.force +
+           " [kN]'\nset grid\nset key off\nplot 'history.csv' every ::1 using 3:($4/1000) with linespoints pt 7 ps 0.5 "
+           "lw 2");
   draw(options.output, "mesh",
        "set title '" + title + ": deformed mesh at " + short_number(r.travel_mm.back(), "%.1f") +
-           " mm'\nset view map\nset size ratio -1\nset key off\nset cblabel 'plastic strain'\nset palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\nset xlabel 'r [mm]'\nset ylabel 'z [mm]'\n"
+           " mm'\nset view map\nset size ratio -1\nset key off\nset cblabel 'plastic strain'\nset palette defined (0 "
+           "'#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\nset xlabel 'r [mm]'\nset ylabel 'z [mm]'\n"
            "set pm3d corners2color c1 border lc rgb '#404040' lw 0.4\n" +
-           r.labels.view + "\nsplot 'mesh.dat' using 1:2:3 with pm3d, 'tools.dat' using 1:2:(0) with lines lc rgb 'black' lw 2");
+           r.labels.view +
+           "\nsplot 'mesh.dat' using 1:2:3 with pm3d, 'tools.dat' using 1:2:(0) with lines lc rgb 'black' lw 2");
 }
 
 }  // namespace
 
-void draw(const std::filesystem::path& directory, const std::string& name, const std::string& body, int width, int height) {
+void draw(const std::filesystem::path& directory, const std::string& name, const std::string& body, int width,
+          int height) {
   const auto script = directory / (name + ".gp");
   {
     std::ofstream out(script);
     for (const std::string kind : {"pngcairo", "svg"})
-      out << "set terminal " << kind << " size " << width << ',' << height << " noenhanced background rgb 'white' font 'sans,12'\nset output '" << name
+      out << "set terminal " << kind << " size " << width << ',' << height
+          << " noenhanced background rgb 'white' font 'sans,12'\nset output '" << name
           << (kind == "svg" ? ".svg" : ".png") << "'\n"
           << body << "\nunset output\n";
     if (!out.flush()) throw std::runtime_error("cannot write " + script.string());
@@ -109,14 +118,15 @@ void draw(const std::filesystem::path& directory, const std::string& name, const
   std::filesystem::current_path(here);
   const std::string log = name + ".log";
   if (status != 0)
-    throw std::runtime_error("gnuplot could not draw " + (directory / name).string() + "; is the package gnuplot-nox installed? Its words are in " + log);
+    throw std::runtime_error("gnuplot could not draw " + (directory / name).string() +
+                             "; is the package gnuplot-nox installed? Its words are in " + log);
   std::filesystem::remove(directory / log);
 }
 
 void show_progress(const Options& options, const Record& r, double fraction) {
   if (on_terminal(options))
-    std::fprintf(stderr, "\r%s: %3.0f %%  step %d  travel %.3f mm  force %.0f N   ", r.labels.name.c_str(), 100 * fraction, r.steps.back().number,
-                 r.travel_mm.back(), r.force_N.back());
+    std::fprintf(stderr, "\r%s: %3.0f %%  step %d  travel %.3f mm  force %.0f N   ", r.labels.name.c_str(),
+                 100 * fraction, r.steps.back().number, r.travel_mm.back(), r.force_N.back());
 }
 
 void end_progress(const Options& options) {
@@ -139,9 +149,12 @@ int conclude(const Options& options, const Record& r) {
     draw_results(options, r);
   }
   if (!options.quiet && options.json != "-")
-    std::printf("%s %s mu %.2f %s: %d steps, %d iterations, %d rejected; %.1f mm, %.0f N; penetration %.4f mm, slip %.2f mm, lag %.3f; %.1f ms\n",
-                r.labels.name.c_str(), options.friction.c_str(), options.mu, options.solver.c_str(), r.report.steps, r.report.iterations,
-                r.report.rejected_steps, r.travel_mm.back(), r.force_N.back(), r.report.max_penetration, r.report.max_slip, r.report.max_lag, 1e3 * r.seconds);
+    std::printf(
+        "%s %s mu %.2f %s: %d steps, %d iterations, %d rejected; %.1f mm, %.0f N; penetration %.4f mm, slip %.2f mm, "
+        "lag %.3f; %.1f ms\n",
+        r.labels.name.c_str(), options.friction.c_str(), options.mu, options.solver.c_str(), r.report.steps,
+        r.report.iterations, r.report.rejected_steps, r.travel_mm.back(), r.force_N.back(), r.report.max_penetration,
+        r.report.max_slip, r.report.max_lag, 1e3 * r.seconds);
   if (!r.outcome) std::cerr << r.labels.name << ": " << r.outcome.message() << '\n';
   return r.outcome ? 0 : 1;
 }

@@ -10,6 +10,7 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -95,17 +96,21 @@ class Problem {
     typename BodyType::MeshType body;
     [[no_unique_address]] typename Model::Kinematics kinematics{};
     typename Model::Material material{};
+    [[no_unique_address]] typename Model::Inertia inertia{};
     [[no_unique_address]] Only<with_contact, std::vector<Contact<Model>>, Problem> contacts{};
   };
 
   /// Throws std::invalid_argument, naming the input, before anything is computed.
-  explicit Problem(Parameters parameters) : body_(std::move(parameters.body), validated(parameters.kinematics), validated(parameters.material)) {
+  explicit Problem(Parameters parameters)
+      : body_(std::move(parameters.body), validated(parameters.kinematics), validated(parameters.material)) {
     if constexpr (with_contact)
       for (const Contact<Model>& c : parameters.contacts) {
         for (const auto& pair : pairs_)
-          if (pair.name() == (c.name.empty() ? c.side : c.name)) throw std::invalid_argument("two contacts are called \"" + pair.name() + "\"; give them names");
+          if (pair.name() == (c.name.empty() ? c.side : c.name))
+            throw std::invalid_argument("two contacts are called \"" + pair.name() + "\"; give them names");
         pairs_.emplace_back(c, body_.mesh(), body_.kinematics());
       }
+    if constexpr (has_inertia<Model>) inertia_.emplace(body_, validated(parameters.inertia));
     u_.setZero(body_.mesh().node_count() * dim);
     last_increment_ = u_;
   }
@@ -122,7 +127,16 @@ class Problem {
   /// Loads a side with a total dead force in one component, spread over its reference area: value(time) [force].
   Problem& load(const std::string& side, Index component, std::function<Real(Real)> value) {
     if (!value) throw std::invalid_argument("load on side \"" + side + "\": needs a function of time");
+    if (body_.mesh().side(side).facets.empty())
+      throw std::invalid_argument("load on side \"" + side + "\": the side has no facets to spread it over");
     loads_.push_back(checked({side, component, std::move(value)}));
+    return *this;
+  }
+
+  /// Sets the velocity of all nodes, for a start at time 0 [length / time].
+  Problem& start_velocity(const Vec<Real, dim>& velocity) requires has_inertia<Model> {
+    for (Index n = 0; n < body_.mesh().node_count(); ++n)
+      inertia_->velocity().template segment<dim>(n * dim) = velocity;
     return *this;
   }
 
@@ -138,32 +152,26 @@ class Problem {
   const Field& displacement() const { return u_; }
   /// Displacement of a node [length].
   Vec<Real, dim> displacement(Index node) const { return u_.template segment<dim>(node * dim); }
+  /// Mass, velocity and acceleration.
+  const InertiaForces<Model>& inertia() const requires has_inertia<Model> { return *inertia_; }
   Index unknowns() const { return system_ ? system_->dofs().unknowns() : 0; }
 
   /// The contact pair called `name`.
-  const ContactPair<Model>& contact(const std::string& name) const
-    requires with_contact
-  {
+  const ContactPair<Model>& contact(const std::string& name) const requires with_contact {
     for (const auto& pair : pairs_)
       if (pair.name() == name) return pair;
     throw std::invalid_argument("there is no contact called \"" + name + "\"");
   }
-  const auto& contacts() const
-    requires with_contact
-  {
-    return pairs_;
-  }
+  const auto& contacts() const requires with_contact { return pairs_; }
   /// Force of the body on the tool of a contact [force]; in axisymmetry of the full turn.
-  Vec<Real, dim> contact_force(const std::string& name) const
-    requires with_contact
-  {
-    return contact(name).force();
-  }
+  Vec<Real, dim> contact_force(const std::string& name) const requires with_contact { return contact(name).force(); }
   /// Sum of the support forces on the body at a side, in one component [force].
   Real reaction(const std::string& side, Index component) const {
+    const auto& nodes = body_.mesh().side(side).nodes;
+    require_component(side, component);
     Real sum = 0;
     if (system_)
-      for (const Index n : body_.mesh().side(side).nodes) sum += reactions_[n * dim + component];
+      for (const Index n : nodes) sum += reactions_[n * dim + component];
     return sum;
   }
 
@@ -171,7 +179,9 @@ class Problem {
   Real max_plastic_strain() const {
     Real largest = 0;
     if constexpr (requires(typename BodyType::State s) { s.plastic_strain; })
-      body_.visit_points(u_, [&](Index, int, const auto&, const auto& state, Real) { largest = std::max(largest, state.plastic_strain); });
+      body_.visit_points(u_, [&](Index, int, const auto&, const auto& state, Real) {
+        largest = std::max(largest, state.plastic_strain);
+      });
     return largest;
   }
 
@@ -183,16 +193,20 @@ class Problem {
     if constexpr (requires { parameters.validate(); }) parameters.validate();
     return parameters;
   }
+  static void require_component(const std::string& side, Index component) {
+    if (component < 0 || component >= dim)
+      throw std::invalid_argument("side \"" + side + "\": there is no component " + std::to_string(component));
+  }
   SideValue checked(SideValue value) {
     (void)body_.mesh().side(value.side);
-    if (value.component < 0 || value.component >= dim)
-      throw std::invalid_argument("side \"" + value.side + "\": there is no component " + std::to_string(value.component));
+    require_component(value.side, value.component);
     system_.reset();  // supports decide the numbering
     return value;
   }
 
   BodyType body_;
   [[no_unique_address]] typename System<Model>::Pairs pairs_;
+  [[no_unique_address]] Only<has_inertia<Model>, std::optional<InertiaForces<Model>>, BodyType> inertia_;
   std::vector<SideValue> driven_, loads_;
   std::unique_ptr<System<Model>> system_;
   Field u_, last_increment_, reactions_;
@@ -205,15 +219,27 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
     : problem_(problem),
       options_(options),
       control_(options, problem.time_),
-      newton_(NewtonOptions{.tolerance = options.tolerance, .max_iterations = options.max_iterations, .line_search = options.line_search}) {
+      newton_(NewtonOptions{.tolerance = options.tolerance,
+                            .max_iterations = options.max_iterations,
+                            .line_search = options.line_search}) {
   if (!problem.system_) {
-    problem.system_ = std::make_unique<System<Model>>(problem.body_, problem.pairs_, problem.driven_, problem.loads_);
+    if constexpr (has_inertia<Model>)
+      problem.system_ = std::make_unique<System<Model>>(problem.body_, problem.pairs_, *problem.inertia_,
+                                                        problem.driven_, problem.loads_);
+    else
+      problem.system_ = std::make_unique<System<Model>>(problem.body_, problem.pairs_, problem.inertia_,
+                                                        problem.driven_, problem.loads_);
     problem.reactions_.setZero(problem.u_.size());
     if constexpr (has_contact<Model>)
       if (problem.time_ == 0)
         for (auto& pair : problem.pairs_)
           if (const Trouble t = pair.start(problem.body_.mesh(), problem.u_, problem.time_))
-            throw std::invalid_argument("contact \"" + pair.name() + "\": the tool's position or the distance to it is not finite at the start");
+            throw std::invalid_argument("contact \"" + pair.name() +
+                                        "\": the tool's position or the distance to it is not finite at the start");
+    if constexpr (has_inertia<Model>)
+      if (problem.time_ == 0)
+        if (const Trouble t = problem.system_->start(problem.u_, problem.time_))
+          throw std::invalid_argument(std::string("the start is not a state: ") + describe(t.cause));
   }
 }
 
@@ -229,10 +255,16 @@ void March<Model>::advance() {
   for (;;) {
     const Real time = control_.next();
     const Real dt = time - problem_.time_;
-    // Guess: the last increment again, or for lack of one the tangent at the converged state.
+    // Guess: the last increment again. For lack of one, with inertia velocity and acceleration, else the tangent at the
+    // converged state.
     u = problem_.u_;
-    const bool extrapolate = problem_.last_dt_ > 0;
+    bool extrapolate = problem_.last_dt_ > 0;
     if (extrapolate) u += dt / problem_.last_dt_ * problem_.last_increment_;
+    if constexpr (has_inertia<Model>) {
+      problem_.inertia_->begin(problem_.u_, dt);
+      if (!extrapolate) problem_.inertia_->predict(u);
+      extrapolate = true;
+    }
     Trouble trouble = system.impose(time, u);
     NewtonReport newton;
     if (trouble) {
@@ -256,7 +288,12 @@ void March<Model>::advance() {
       problem_.time_ = time;
       for (Index c = 0; c < system.dofs().components(); ++c) problem_.reactions_[c] = system.reaction(c);
 
-      step_ = {.number = ++report_.steps, .time = time, .dt = dt, .iterations = newton.iterations, .rejected = rejected, .residual = newton.residual};
+      step_ = {.number = ++report_.steps,
+               .time = time,
+               .dt = dt,
+               .iterations = newton.iterations,
+               .rejected = rejected,
+               .residual = newton.residual};
       step_.contact = system.contact_summary();
       step_.lag = step_.contact.max_bound > 0 ? step_.contact.max_lag / step_.contact.max_bound : 0;
       report_.max_penetration = std::max(report_.max_penetration, step_.contact.max_penetration);
@@ -268,7 +305,11 @@ void March<Model>::advance() {
     ++report_.rejected_steps;
     control_.reject(time);
     if (control_.too_small()) {
-      outcome_ = {.trouble = newton.trouble, .step = report_.steps + 1, .time = problem_.time_, .tried_step = dt, .attempts = rejected};
+      outcome_ = {.trouble = newton.trouble,
+                  .step = report_.steps + 1,
+                  .time = problem_.time_,
+                  .tried_step = dt,
+                  .attempts = rejected};
       ended_ = true;
       return;
     }

@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-program = sys.argv[1]
+program, failing = sys.argv[1:]
 KEYS = """benchmark friction mu solver kinematics material elements unknowns symmetric_storage completed steps iterations
 rejected_steps factorizations indefinite_factorizations seconds_total seconds_assembly seconds_contact seconds_factorization
 seconds_solve peak_memory_mb max_penetration_mm max_slip_mm max_plastic_strain max_lag final_force_N history""".split()
@@ -40,6 +40,7 @@ for options, words in [
     (["--steps", "soon"], ["--steps", '"soon"', "auto"]),
     (["--steps", "-3"], ["--steps", '"-3"']),
     (["--tolerance", "0"], ["--tolerance", '"0"', "1e-14"]),
+    (["--travel", "0"], ["--travel", '"0"', "1 to 500"]),
     (["--unknown"], ["--unknown", "--help"]),
     (["--fric", "coulomb"], ["--fric"]),
     (["stray"], ["--help"]),
@@ -83,12 +84,17 @@ for friction, solvers in listed.items():
 # A run that cannot reach its end: exit code 1, the reason, and all that was computed is there.
 with tempfile.TemporaryDirectory() as folder:
     folder = pathlib.Path(folder)
-    done = run("--tolerance", "1e-14", "--json", str(folder / "run.json"), "--output", str(folder / "files"))
-    check(done.returncode == 1, done.returncode)
-    check("failed" in done.stderr and "step" in done.stderr, done.stderr)
+    done = subprocess.run([failing, "--json", str(folder / "run.json"), "--output", str(folder / "files"), "--quiet"], capture_output=True, text=True)
+    check(done.returncode == 1 and done.stdout == "", (done.returncode, done.stdout))
+    check("failed" in done.stderr and "not finite" in done.stderr and done.stderr.count("\n") == 1, done.stderr)
     result = json.loads((folder / "run.json").read_text())
     check(result["completed"] is False and len(result["history"]["time_s"]) == result["steps"] + 1, result["steps"])
-    check((folder / "files" / "osu_punch.pvd").exists() and (folder / "files" / "force.png").exists(), "files of the part that ran")
+    check(0.49 < result["history"]["time_s"][-1] <= 0.5, result["history"]["time_s"][-1])
+    check(abs(result["final_force_N"] + 0) > 0 and all(f == f for f in result["history"]["force_N"]), "the converged forces, not the failed ones")
+    lines = (folder / "files" / "history.csv").read_text().splitlines()
+    check(len(lines) == result["steps"] + 2, "history of the part that ran")
+    for name in ("failing_run.pvd", "force.png", "mesh.svg"):
+        check((folder / "files" / name).stat().st_size > 0, name)
 
     # Output that cannot be written is named.
     (folder / "file").write_text("")

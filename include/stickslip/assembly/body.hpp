@@ -2,7 +2,6 @@
 #pragma once
 
 #include <stickslip/assembly/sparse_matrix.hpp>
-#include <stickslip/element/gradient_operator.hpp>
 #include <stickslip/mesh/mesh.hpp>
 #include <stickslip/policy/model.hpp>
 
@@ -87,16 +86,19 @@ class Body {
   Trouble assemble(const Field& u, Real dt, const Field* driven, Field& forces, Matrix& matrix) {
     for (Index e = 0; e < mesh_.cell_count(); ++e) {
       const Vec<Real, dofs> local = gather(u, e);
-      const Cause cause = Element::evaluate(geometry_[static_cast<std::size_t>(e)], material_, local, committed_.of(e), dt, result_);
+      const Cause cause =
+          Element::evaluate(geometry_[static_cast<std::size_t>(e)], material_, local, committed_.of(e), dt, result_);
       if (cause != Cause::none) return {cause, {Place::Kind::element, e}};
       if (driven) {
         const Vec<Real, dofs> increment = gather(*driven, e);
         if (!increment.isZero(0)) result_.residual += result_.tangent * increment;
       }
-      if (!std::isfinite(result_.residual.sum()) || !std::isfinite(result_.tangent.sum())) return {Cause::not_finite, {Place::Kind::element, e}};
+      if (!std::isfinite(result_.residual.sum()) || !std::isfinite(result_.tangent.sum()))
+        return {Cause::not_finite, {Place::Kind::element, e}};
       const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
       for (int a = 0; a < Element::nodes; ++a)
-        forces.template segment<dim>(cell[static_cast<std::size_t>(a)] * dim) += result_.residual.template segment<dim>(a * dim);
+        forces.template segment<dim>(cell[static_cast<std::size_t>(a)] * dim) +=
+            result_.residual.template segment<dim>(a * dim);
       matrix.add(slots_[static_cast<std::size_t>(e)], result_.tangent);
       trial_.store(e, result_.states);
     }
@@ -106,7 +108,8 @@ class Body {
   /// Makes the memory of the last assembly the converged one.
   void commit() { std::swap(committed_, trial_); }
 
-  /// Calls visit(cell, point, F, state, weight) for the converged memory: F as the material sees it, weight the reference volume.
+  /// Calls visit(cell, point, F, state, weight) for the converged memory: F as the material sees it, weight the
+  /// reference volume.
   template <class Visit>
   void visit_points(const Field& u, Visit&& visit) const {
     for (Index e = 0; e < mesh_.cell_count(); ++e) {
@@ -116,6 +119,11 @@ class Body {
       for (std::size_t p = 0; p < F.size(); ++p) visit(e, static_cast<int>(p), F[p], states[p], geometry[p].weight);
     }
   }
+
+  /// Geometry of the quadrature points of a cell.
+  const auto& geometry(Index cell) const { return geometry_[static_cast<std::size_t>(cell)]; }
+  /// Where a cell's tangent is stored in the matrix.
+  const auto& slots(Index cell) const { return slots_[static_cast<std::size_t>(cell)]; }
 
   /// Bytes of material memory a quadrature point keeps for one state (there are two: converged and trial).
   static constexpr std::size_t bytes_per_point = PointMemory<State, Element::points>::stored ? sizeof(State) : 0;
@@ -128,7 +136,8 @@ class Body {
     Mat<Real, Element::nodes, dim> X;
     for (int a = 0; a < Element::nodes; ++a) {
       const Index n = cell[static_cast<std::size_t>(a)];
-      if (n < 0 || n >= mesh_.node_count()) throw std::invalid_argument("body: cell " + std::to_string(e) + " names a node that does not exist");
+      if (n < 0 || n >= mesh_.node_count())
+        throw std::invalid_argument("body: cell " + std::to_string(e) + " names a node that does not exist");
       X.row(a) = mesh_.nodes[static_cast<std::size_t>(n)].transpose();
     }
     Geometry geometry;
@@ -136,8 +145,9 @@ class Body {
     for (std::size_t p = 0; p < rule.size(); ++p) {
       geometry[p] = point_geometry<Kinematics, typename Element::Cell>(kinematics_, X, rule[p].xi, rule[p].weight);
       if (!(geometry[p].weight > 0) || !std::isfinite(geometry[p].weight))
-        throw std::invalid_argument("body: cell " + std::to_string(e) +
-                                    " has no positive volume; its nodes must run counter-clockwise, and in axisymmetry at positive radius");
+        throw std::invalid_argument(
+            "body: cell " + std::to_string(e) +
+            " has no positive volume; its nodes must run counter-clockwise, and in axisymmetry at positive radius");
     }
     return geometry;
   }
@@ -145,7 +155,8 @@ class Body {
   Vec<Real, dofs> gather(const Field& field, Index e) const {
     Vec<Real, dofs> local;
     const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
-    for (int a = 0; a < Element::nodes; ++a) local.template segment<dim>(a * dim) = field.template segment<dim>(cell[static_cast<std::size_t>(a)] * dim);
+    for (int a = 0; a < Element::nodes; ++a)
+      local.template segment<dim>(a * dim) = field.template segment<dim>(cell[static_cast<std::size_t>(a)] * dim);
     return local;
   }
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stickslip {
@@ -21,23 +22,24 @@ template <class Model>
 struct Contact {
   static constexpr int dim = Model::Kinematics::dim;
 
-  std::string side;                                                                 ///< named side of the mesh
-  rigid::Profile tool;                                                              ///< in its own frame
-  rigid::Motion<dim> motion{};                                                      ///< the frame's pose over time
-  [[no_unique_address]] Only<has_friction<Model>, typename Model::Friction::Law, Contact> friction{};  ///< parameters of the law
-  typename Model::Enforcement enforcement{};                                        ///< parameters of the enforcement
-  std::string name{};                                                               ///< for results; the side's name if empty
+  std::string side;             ///< named side of the mesh
+  rigid::Profile tool;          ///< in its own frame
+  rigid::Motion<dim> motion{};  ///< the frame's pose over time
+  [[no_unique_address]] Only<has_friction<Model>, typename Model::Friction::Law, Contact>
+      friction{};                             ///< parameters of the law
+  typename Model::Enforcement enforcement{};  ///< parameters of the enforcement
+  std::string name = "";  ///< for results; the side's name if empty. Not {}: GCC 12 breaks down where it is left out
 };
 
 /// What a pair did in the last assembly.
 struct ContactSummary {
-  Index touching = 0;         ///< nodes in contact
-  Index sliding = 0;          ///< of them, nodes that slide
-  Real max_penetration = 0;   ///< [length]
-  Real max_slip = 0;          ///< largest slid distance of a node so far [length]
-  Real max_bound = 0;         ///< largest friction force that a node could bear at its current pressure [force]
-  Real max_lag = 0;           ///< largest change of that which the law has not seen yet [force]
-  Real dissipated = 0;        ///< by friction in the step [energy]
+  Index touching = 0;        ///< nodes in contact
+  Index sliding = 0;         ///< of them, nodes that slide
+  Real max_penetration = 0;  ///< [length]
+  Real max_slip = 0;         ///< largest slid distance of a node so far [length]
+  Real max_bound = 0;        ///< largest friction force that a node could bear at its current pressure [force]
+  Real max_lag = 0;          ///< largest change of that which the law has not seen yet [force]
+  Real dissipated = 0;       ///< by friction in the step [energy]
 
   void merge(const ContactSummary& other) {
     touching += other.touching;
@@ -50,7 +52,7 @@ struct ContactSummary {
   }
 };
 
-/// A contact node as the last assembly left it.
+/// A contact node at a converged state.
 template <int dim>
 struct ContactNodeState {
   Vec<Real, dim> force = Vec<Real, dim>::Zero();  ///< of the node on the tool [force]
@@ -74,12 +76,21 @@ class ContactPair {
 
   template <class MeshType>
   ContactPair(const Contact<Model>& contact, const MeshType& mesh, const typename Model::Kinematics& kinematics)
-      : contact_(contact), nodes_(mesh.side(contact.side).nodes), weight_(nodes_.size(), 0.0), states_(nodes_.size()) {
+      : contact_(contact),
+        nodes_(mesh.side(contact.side).nodes),
+        weight_(nodes_.size(), 0.0),
+        states_(nodes_.size()),
+        trial_states_(nodes_.size()) {
     if (contact_.name.empty()) contact_.name = contact_.side;
-    if (contact_.tool.empty()) throw std::invalid_argument("contact \"" + contact_.name + "\": the tool has no surface");
+    if (contact_.tool.empty())
+      throw std::invalid_argument("contact \"" + contact_.name + "\": the tool has no surface");
     if constexpr (requires { contact_.enforcement.validate(); }) contact_.enforcement.validate();
     if constexpr (has_friction<Model>)
       if constexpr (requires { contact_.friction.validate(); }) contact_.friction.validate();
+    if constexpr (has_friction<Model>)
+      if (!(contact_.enforcement.stick_stiffness(1) > 0))
+        throw std::invalid_argument("contact \"" + contact_.name +
+                                    "\": friction needs a positive tangential stiffness");
     if constexpr (remembers) {
       committed_.resize(nodes_.size());
       trial_.resize(nodes_.size());
@@ -90,9 +101,11 @@ class ContactPair {
   const std::string& name() const { return contact_.name; }
   const Contact<Model>& contact() const { return contact_; }
   const std::vector<Index>& nodes() const { return nodes_; }
+  /// The nodes at the converged state.
   const std::vector<ContactNodeState<dim>>& states() const { return states_; }
+  /// What happened in the last assembly.
   const ContactSummary& summary() const { return summary_; }
-  /// Total force on the tool in the last assembly.
+  /// Total force on the tool at the converged state.
   const Vec<Real, dim>& force() const { return force_; }
 
   void connect(const Dofs& equations, const Matrix& matrix) {
@@ -121,10 +134,11 @@ class ContactPair {
 
   /// Adds contact forces and their tangent at the nodal displacements u and `time`.
   template <class MeshType>
-  Trouble assemble(const MeshType& mesh, const Field& u, Real time, Real dt, const Field* driven, Field& forces, Matrix& matrix) {
+  Trouble assemble(const MeshType& mesh, const Field& u, Real time, Real dt, const Field* driven, Field& forces,
+                   Matrix& matrix) {
     const rigid::Pose<dim> pose = contact_.motion.at(time);
     summary_ = {};
-    force_.setZero();
+    trial_force_.setZero();
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const Index n = nodes_[k];
       const SurfacePoint<Real, dim> at = closest(mesh, u, pose, n);
@@ -133,10 +147,12 @@ class ContactPair {
       if constexpr (remembers) old = committed_[k];
       Vec<Real, dim - 1> slipped = Vec<Real, dim - 1>::Zero();
       if constexpr (has_friction<Model>) slipped[0] = contact_.tool.difference(at.place[0], old.friction.place[0]);
-      const auto node = contact_node<Real, dim>(contact_.enforcement, contact_.friction, Friction{}, weight_[k], at, slipped, old, dt);
+      const auto node = contact_node<Real, dim>(contact_.enforcement, contact_.friction, Friction{}, weight_[k], at,
+                                                slipped, old, dt);
+      if (node.cause != Cause::none) return {node.cause, {Place::Kind::contact_node, n}};
       if constexpr (remembers) trial_[k] = node.memory;
 
-      ContactNodeState<dim>& state = states_[k];
+      ContactNodeState<dim>& state = trial_states_[k];
       state.gap = at.gap;
       state.touching = node.touching;
       state.force.setZero();
@@ -147,12 +163,13 @@ class ContactPair {
       if (!node.touching) continue;
       state.force = pose.rotation * node.force;
       Mat<Real, dim> stiffness = pose.rotation * node.stiffness * pose.rotation.transpose();
-      if (!state.force.allFinite() || !stiffness.allFinite()) return {Cause::not_finite, {Place::Kind::contact_node, n}};
+      if (!state.force.allFinite() || !stiffness.allFinite())
+        return {Cause::not_finite, {Place::Kind::contact_node, n}};
       forces.template segment<dim>(n * dim) += state.force;
       if (driven) forces.template segment<dim>(n * dim) += stiffness * driven->template segment<dim>(n * dim);
       matrix.add(slots_[k], stiffness);
 
-      force_ += state.force;
+      trial_force_ += state.force;
       ++summary_.touching;
       summary_.sliding += node.sliding ? 1 : 0;
       summary_.max_penetration = std::max(summary_.max_penetration, -at.gap);
@@ -163,14 +180,17 @@ class ContactPair {
     return {};
   }
 
-  /// Makes the memory of the last assembly the converged one.
+  /// Makes the memory and the forces of the last assembly the converged ones.
   void commit() {
     if constexpr (remembers) std::swap(committed_, trial_);
+    std::swap(states_, trial_states_);
+    force_ = trial_force_;
   }
 
  private:
   template <class MeshType>
-  SurfacePoint<Real, dim> closest(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose, Index node) const {
+  SurfacePoint<Real, dim> closest(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose,
+                                  Index node) const {
     const Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(node)] + u.template segment<dim>(node * dim);
     return contact_.tool.closest(Vec<Real, dim>(pose.rotation.transpose() * (x - pose.translation)));
   }
@@ -181,21 +201,23 @@ class ContactPair {
     const PenaltyPer per = contact_.enforcement.per;
     if (per == PenaltyPer::node) std::fill(weight_.begin(), weight_.end(), 1.0);
     if (per == PenaltyPer::unit_depth)
-      std::fill(weight_.begin(), weight_.end(), Model::Kinematics::hoop ? 2 * pi : kinematics.measure(mesh.nodes[static_cast<std::size_t>(nodes_[0])]));
+      std::fill(weight_.begin(), weight_.end(),
+                Model::Kinematics::hoop ? 2 * pi : kinematics.measure(mesh.nodes[static_cast<std::size_t>(nodes_[0])]));
     if (per == PenaltyPer::area)
       for (std::size_t k = 0; k < nodes_.size(); ++k)
-        for (const auto& facet : mesh.side(contact_.side).facets) weight_[k] += facet_share(mesh, kinematics, facet, nodes_[k]);
+        for (const auto& facet : mesh.side(contact_.side).facets)
+          weight_[k] += facet_share(mesh, kinematics, facet, nodes_[k]);
   }
 
   Contact<Model> contact_;
   std::vector<Index> nodes_;
   std::vector<Real> weight_;
-  std::vector<ContactNodeState<dim>> states_;
+  std::vector<ContactNodeState<dim>> states_, trial_states_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dim))>> slots_;
   ContactSummary summary_;
-  Vec<Real, dim> force_ = Vec<Real, dim>::Zero();
+  Vec<Real, dim> force_ = Vec<Real, dim>::Zero(), trial_force_ = Vec<Real, dim>::Zero();
 };
 
 }  // namespace stickslip

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/base/nothing.hpp>
+#include <stickslip/base/outcome.hpp>
 #include <stickslip/geometry/surface_point.hpp>
 #include <stickslip/policy/enforcement.hpp>
 #include <stickslip/policy/friction.hpp>
@@ -13,9 +14,10 @@ namespace stickslip {
 /// What a node in frictional contact remembers.
 template <class S, int dim, class Pressure>
 struct FrictionMemory {
-  Vec<S, dim - 1> traction = Vec<S, dim - 1>::Zero();  ///< t_F, work conjugate to the tool's surface coordinates [force]
-  Vec<S, dim - 1> place = Vec<S, dim - 1>::Zero();     ///< surface coordinates of the closest point [length]
-  S slip = S(0);                                       ///< slid distance so far [length]
+  Vec<S, dim - 1> traction =
+      Vec<S, dim - 1>::Zero();                      ///< t_F, work conjugate to the tool's surface coordinates [force]
+  Vec<S, dim - 1> place = Vec<S, dim - 1>::Zero();  ///< surface coordinates of the closest point [length]
+  S slip = S(0);                                    ///< slid distance so far [length]
   [[no_unique_address]] typename Pressure::template Memory<S> pressure{};
 };
 
@@ -46,6 +48,7 @@ struct NodeContact {
   S bound = S(0);                               ///< largest friction force at the current pressure [force]
   S lag = S(0);                                 ///< bound at the current pressure less the bound that was used [force]
   S dissipated = S(0);                          ///< work of friction in this step [energy]
+  Cause cause = Cause::none;
   bool touching = false;
   bool sliding = false;
   Memory memory{};
@@ -93,15 +96,24 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     if (!(value_of(size) < value_of(bound.value))) {
       out.sliding = true;
       S lambda = value_of(stiffness) > 0 ? S((size - bound.value) / stiffness) : S(0);
-      if constexpr (Law::depends_on_slip)
-        for (int i = 0; i < 30; ++i) {
+      if constexpr (Law::depends_on_slip) {
+        bool converged = value_of(stiffness) <= 0;
+        for (int i = 0; i < 30 && !converged; ++i) {
           bound = law.bound(FrictionPoint<S>{pressure, S(old.friction.slip + lambda)});
           const S excess = size - stiffness * lambda - bound.value;
           lambda += excess / (stiffness + bound.d_slip);
-          if (std::abs(value_of(excess)) <= 1e-14 * value_of(size)) break;
+          converged = std::abs(value_of(excess)) <= 1e-14 * value_of(size);
         }
+        if (!converged) out.cause = Cause::friction_failed;
+        // At the slip of the last step, which carries the derivatives of a dual number.
+        bound = law.bound(FrictionPoint<S>{pressure, S(old.friction.slip + lambda)});
+      }
       const Vec<S, m> direction = value_of(size) > 0 ? Vec<S, m>(trial / size) : Vec<S, m>(Vec<S, m>::Zero());
-      const S share = stiffness / (stiffness + bound.d_slip);
+      // A law that loses strength faster than the stiffness can follow has no equilibrium; no stiffness, no slip to
+      // solve for.
+      const S resistance = stiffness + bound.d_slip;
+      if (value_of(stiffness) > 0 && !(value_of(resistance) > 0)) out.cause = Cause::friction_failed;
+      const S share = value_of(stiffness) > 0 ? S(stiffness / resistance) : S(0);
       const S ratio = value_of(size) > 0 ? S(bound.value / size) : S(0);
       traction = direction * bound.value;
       d_trial = (Mat<S, m>::Identity() - direction * direction.transpose()) * S(ratio * stiffness) +

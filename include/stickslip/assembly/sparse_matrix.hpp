@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -47,13 +48,25 @@ class SparseMatrix {
 
   /// Where the entries of a block over `components` are stored.
   template <std::size_t n>
-  std::array<Index, static_cast<std::size_t>(block_entries(n))> map(const Dofs& dofs, const std::array<Index, n>& components) const {
+  std::array<Index, static_cast<std::size_t>(block_entries(n))> map(const Dofs& dofs,
+                                                                    const std::array<Index, n>& components) const {
     std::array<Index, static_cast<std::size_t>(block_entries(n))> slots;
     std::size_t k = 0;
     for (std::size_t b = 0; b < n; ++b)
       for (std::size_t a = storage == Symmetry::symmetric ? b : 0; a < n; ++a)
         slots[k++] = slot(dofs.equation(components[a]), dofs.equation(components[b]));
     return slots;
+  }
+
+  /// This becomes factor * this + other_factor * other; both have one pattern.
+  void combine(Real factor, const SparseMatrix& other, Real other_factor) {
+    for (std::size_t k = 0; k < values_.size(); ++k) values_[k] = factor * values_[k] + other_factor * other.values_[k];
+  }
+  /// Largest magnitude of an entry.
+  Real largest() const {
+    Real m = 0;
+    for (std::size_t k = 0; k + 1 < values_.size(); ++k) m = std::max(m, std::abs(values_[k]));
+    return m;
   }
 
   void set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
@@ -63,7 +76,8 @@ class SparseMatrix {
   void add(const std::array<Index, static_cast<std::size_t>(block_entries(n))>& slots, const Mat<Real, n>& block) {
     std::size_t k = 0;
     for (int b = 0; b < n; ++b)
-      for (int a = storage == Symmetry::symmetric ? b : 0; a < n; ++a) values_[static_cast<std::size_t>(slots[k++])] += block(a, b);
+      for (int a = storage == Symmetry::symmetric ? b : 0; a < n; ++a)
+        values_[static_cast<std::size_t>(slots[k++])] += block(a, b);
   }
 
   SparseView view() const {

@@ -3,9 +3,12 @@
 
 #include <stickslip/assembly/body.hpp>
 #include <stickslip/assembly/contact.hpp>
+#include <stickslip/assembly/inertia.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -52,9 +55,14 @@ class System {
   static constexpr bool with_contact = has_contact<Model>;
   using Pairs = Only<with_contact, std::vector<ContactPair<Model>>, Matrix>;
 
-  System(BodyType& body, Pairs& pairs, const std::vector<SideValue>& driven, const std::vector<SideValue>& loads)
-      : body_(body), pairs_(pairs) {
+  static constexpr bool with_inertia = has_inertia<Model>;
+  using Inertia = Only<with_inertia, InertiaForces<Model>, Body<Model>>;
+
+  System(BodyType& body, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
+         const std::vector<SideValue>& loads)
+      : body_(body), pairs_(pairs), inertia_(inertia) {
     const Index components = body.mesh().node_count() * dim;
+    for (const auto& X : body.mesh().nodes) extent_ = std::max(extent_, X.template lpNorm<Eigen::Infinity>());
     std::vector<bool> constrained(static_cast<std::size_t>(components), false);
     for (const SideValue& d : driven) {
       driven_.push_back({d.value, {}});
@@ -87,7 +95,8 @@ class System {
     body.connect(dofs_, matrix_);
     if constexpr (with_contact)
       for (auto& pair : pairs) pair.connect(dofs_, matrix_);
-    for (Field* f : {&internal_, &contact_, &external_}) f->setZero(components);
+    if constexpr (with_inertia) inertia.connect(matrix_);
+    for (Field* f : {&internal_, &contact_, &external_, &balance_}) f->setZero(components);
     residual_.setZero(dofs_.unknowns());
   }
 
@@ -100,7 +109,8 @@ class System {
   Trouble impose(Real time, Field& u) const {
     for (const Driven& d : driven_) {
       const Real value = d.value ? d.value(time) : 0.0;
-      if (!std::isfinite(value)) return {Cause::not_finite, {Place::Kind::node, d.components.empty() ? -1 : d.components[0] / dim}};
+      if (!std::isfinite(value))
+        return {Cause::not_finite, {Place::Kind::node, d.components.empty() ? -1 : d.components[0] / dim}};
       for (const Index c : d.components) u[c] = value;
     }
     return {};
@@ -109,29 +119,22 @@ class System {
   /// Evaluates residual and tangent at the displacements u, `time` and the increment dt that leads there. With
   /// `driven`, the residual is the one to first order after those further increments of constrained components.
   Trouble evaluate(const Field& u, Real time, Real dt, const Field* driven = nullptr) {
-    internal_.setZero();
-    matrix_.set_zero();
-    {
+    if (const Trouble t = assemble(u, time, dt, driven)) return t;
+    if constexpr (with_inertia) {
       const Stopwatch watch(timings.assembly);
-      if (const Trouble t = body_.assemble(u, dt, driven, internal_, matrix_)) return t;
+      static_force_ = balance_;
+      inertia_.apply(u, static_force_, balance_, matrix_);
     }
-    if constexpr (with_contact) {
-      const Stopwatch watch(timings.contact);
-      contact_.setZero();
-      for (auto& pair : pairs_)
-        if (const Trouble t = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, matrix_)) return t;
-    }
-    external_.setZero();
-    for (const Load& l : loads_) {
-      const Real value = l.value(time);
-      if (!std::isfinite(value)) return {Cause::not_finite, {Place::Kind::node, l.components.empty() ? -1 : l.components[0] / dim}};
-      for (std::size_t k = 0; k < l.components.size(); ++k) external_[l.components[k]] += l.shares[k] * value;
-    }
-    const Index n = dofs_.components();
-    for (Index i = 0; i < n; ++i)
-      if (dofs_.equation(i) != Dofs::constrained) residual_[dofs_.equation(i)] = internal_[i] + contact_[i] - external_[i];
+    dofs_.gather(balance_, residual_);
     norm_ = residual_.norm();
     if (!std::isfinite(norm_)) return {Cause::not_finite, {}};
+    return {};
+  }
+
+  /// Gives the body the accelerations that balance the forces at the start of a run.
+  Trouble start(const Field& u, Real time) requires with_inertia {
+    if (const Trouble t = assemble(u, time, 0, nullptr)) return t;
+    inertia_.start(dofs_, balance_);
     return {};
   }
 
@@ -141,8 +144,16 @@ class System {
   /// What the residual is measured against: the largest of the norms of the internal, contact and external nodal
   /// forces, those at supports included (theory.md, eq. 6.2).
   Real force_scale() const { return std::max({internal_.norm(), contact_.norm(), external_.norm()}); }
-  /// Force of a support on the body, by nodal component; zero to the tolerance at free components.
-  Real reaction(Index component) const { return internal_[component] + contact_[component] - external_[component]; }
+  /// Residual that round-off alone leaves: the largest stiffness times the extent of the coordinates (theory.md, eq.
+  /// 6.2). Without it a body that only moves, free of stress, would never be in balance.
+  Real roundoff(const Field& u) const {
+    Real extent = u.lpNorm<Eigen::Infinity>();
+    if constexpr (with_contact) extent += extent_;
+    return 16 * std::numeric_limits<Real>::epsilon() * matrix_.largest() * extent * std::sqrt(Real(dofs_.unknowns()));
+  }
+  /// Force of a support on the body, by nodal component, inertia included; zero to the tolerance at free components.
+  /// With generalised-alpha it is that of the balance, between the start and the end of the step.
+  Real reaction(Index component) const { return balance_[component]; }
   const Field& internal() const { return internal_; }
 
   /// What all contact pairs did in the last evaluation.
@@ -155,6 +166,7 @@ class System {
 
   /// Makes the state of the last evaluation the converged one.
   void commit() {
+    if constexpr (with_inertia) inertia_.commit();
     body_.commit();
     if constexpr (with_contact)
       for (auto& pair : pairs_) pair.commit();
@@ -173,14 +185,42 @@ class System {
     std::vector<Real> shares;
   };
 
+  // Internal, contact and external forces by component, their balance without inertia, and its derivative.
+  Trouble assemble(const Field& u, Real time, Real dt, const Field* driven) {
+    internal_.setZero();
+    matrix_.set_zero();
+    {
+      const Stopwatch watch(timings.assembly);
+      if (const Trouble t = body_.assemble(u, dt, driven, internal_, matrix_)) return t;
+    }
+    if constexpr (with_contact) {
+      const Stopwatch watch(timings.contact);
+      contact_.setZero();
+      for (auto& pair : pairs_)
+        if (const Trouble t = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, matrix_)) return t;
+    }
+    external_.setZero();
+    for (const Load& l : loads_) {
+      const Real value = l.value(time);
+      if (!std::isfinite(value))
+        return {Cause::not_finite, {Place::Kind::node, l.components.empty() ? -1 : l.components[0] / dim}};
+      for (std::size_t k = 0; k < l.components.size(); ++k) external_[l.components[k]] += l.shares[k] * value;
+    }
+    balance_ = internal_ + contact_ - external_;
+    return {};
+  }
+
   BodyType& body_;
   Pairs& pairs_;
+  Inertia& inertia_;
   Dofs dofs_;
   Matrix matrix_;
   std::vector<Driven> driven_;
   std::vector<Load> loads_;
-  Field internal_, contact_, external_, residual_;
+  Field internal_, contact_, external_, balance_, residual_;
+  [[no_unique_address]] Only<with_inertia, Field, System> static_force_;
   Real norm_ = 0;
+  Real extent_ = 0;  // largest reference coordinate
   Index pattern_revision_ = 1;
 };
 

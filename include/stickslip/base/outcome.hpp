@@ -13,6 +13,7 @@ enum class Cause {
   element_inverted,  ///< a deformation gradient with no positive determinant
   not_finite,        ///< a NaN or an infinity in a residual, a tangent, a load or a tool's position
   material_failed,   ///< a material's own iteration did not converge
+  friction_failed,   ///< a friction law's slip did not converge, or it softens faster than its stiffness can follow
   singular_matrix,   ///< the factorisation met a zero pivot: a rigid-body mode or a limit point
   not_converged,     ///< the iteration limit was reached
   stalled,           ///< no step along the Newton direction lowers the residual
@@ -21,13 +22,22 @@ enum class Cause {
 /// The sentence part that names a cause.
 inline const char* describe(Cause cause) {
   switch (cause) {
-    case Cause::none: return "nothing";
-    case Cause::element_inverted: return "an element turned inside out";
-    case Cause::not_finite: return "a value was not finite";
-    case Cause::material_failed: return "a material's return map did not converge";
-    case Cause::singular_matrix: return "the tangent matrix is singular";
-    case Cause::not_converged: return "the Newton iteration did not converge within its limit";
-    case Cause::stalled: return "the Newton iteration stalled";
+    case Cause::none:
+      return "nothing";
+    case Cause::element_inverted:
+      return "an element turned inside out";
+    case Cause::not_finite:
+      return "a value was not finite";
+    case Cause::material_failed:
+      return "a material's return map did not converge";
+    case Cause::friction_failed:
+      return "a friction law's slip could not be found";
+    case Cause::singular_matrix:
+      return "the tangent matrix is singular";
+    case Cause::not_converged:
+      return "the Newton iteration did not converge within its limit";
+    case Cause::stalled:
+      return "the Newton iteration stalled";
   }
   return "an unknown cause";
 }
@@ -60,8 +70,8 @@ struct [[nodiscard]] Outcome {
   /// One sentence for a person.
   std::string message() const {
     if (*this) return "completed";
-    std::string text = "step " + std::to_string(step) + " after time " + std::to_string(time) +
-                       " failed: " + describe(trouble.cause);
+    std::string text =
+        "step " + std::to_string(step) + " after time " + std::to_string(time) + " failed: " + describe(trouble.cause);
     if (trouble.place.kind == Place::Kind::element) text += " (element " + std::to_string(trouble.place.number) + ")";
     if (trouble.place.kind == Place::Kind::node) text += " (node " + std::to_string(trouble.place.number) + ")";
     if (trouble.place.kind == Place::Kind::contact_node)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-/// What a policy says it is, by `using Role = stickslip::role::Material;` and the like. Matching signatures do not imply
-/// matching meaning, so every contract asks for its role by name.
+/// What a policy says it is, by `using Role = stickslip::role::Material;` and the like. Matching signatures do not
+/// imply matching meaning, so every contract asks for its role by name.
 namespace stickslip::role {
 
 struct Kinematics {};

@@ -26,6 +26,8 @@ using Field = Eigen::VectorXd;
 inline constexpr Real pi = std::numbers::pi_v<Real>;
 
 /// The plain number inside a scalar: itself for Real; the dual number overloads it. Branches of the kernels look at it.
-constexpr Real value_of(Real x) { return x; }
+constexpr Real value_of(Real x) {
+  return x;
+}
 
 }  // namespace stickslip

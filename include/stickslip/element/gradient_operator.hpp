@@ -8,26 +8,6 @@ namespace stickslip {
 
 /// The linear operator B of a point, delta F = B delta u, applied without being formed (theory.md, eq. 2.3).
 
-/// Geometry of a point from the nodes' reference coordinates (one row a node).
-template <class Kinematics, class Cell>
-PointGeometry<Kinematics, Cell::nodes> point_geometry(const Kinematics& kinematics, const Mat<Real, Cell::nodes, Cell::dim>& X,
-                                                      const Vec<Real, Cell::dim>& xi, Real quadrature_weight) {
-  static_assert(Cell::dim == 2, "the inverse below is that of the plane");
-  const Mat<Real, Cell::nodes, 2> dN_dxi = Cell::gradient(xi);
-  const Vec<Real, Cell::nodes> N = Cell::shape(xi);
-  const Mat<Real, 2> jacobian = X.transpose() * dN_dxi;
-  const Real det = jacobian(0, 0) * jacobian(1, 1) - jacobian(0, 1) * jacobian(1, 0);
-  Mat<Real, 2> inverse;
-  inverse << jacobian(1, 1), -jacobian(0, 1), -jacobian(1, 0), jacobian(0, 0);
-  inverse /= det;
-  const Vec<Real, 2> place = X.transpose() * N;
-  PointGeometry<Kinematics, Cell::nodes> point;
-  point.dN_dX = dN_dxi * inverse;
-  if constexpr (Kinematics::hoop) point.N_over_R = N / place[0];
-  point.weight = quadrature_weight * det * kinematics.measure(place);
-  return point;
-}
-
 /// F = I + B u for the nodal displacements u of the element.
 template <class Kinematics, int nodes, class G, class S>
 Tensor<S, typename Kinematics::Shape> deformation_gradient(const PointGeometry<Kinematics, nodes, G>& point,

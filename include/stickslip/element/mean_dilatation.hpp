@@ -9,8 +9,8 @@
 
 namespace stickslip {
 
-/// Q1/P0: the dilatation is the mean over the element, theta = v / V, and the material sees F_bar = (theta / J)^(1/3) F.
-/// Pressure and dilatation are condensed exactly: forces and tangent are the first and second derivative of one
+/// Q1/P0: the dilatation is the mean over the element, theta = v / V, and the material sees F_bar = (theta / J)^(1/3)
+/// F. Pressure and dilatation are condensed exactly: forces and tangent are the first and second derivative of one
 /// potential sum_p w_p W(F_bar_p(u)), so the tangent is symmetric whenever the material's is (theory.md, eq. 2.6-2.12;
 /// after Simo, Taylor & Pister 1985).
 template <class Cell_ = Quad4>
@@ -40,8 +40,8 @@ struct MeanDilatation {
 
   /// Nodal forces and tangent of one element for nodal displacements u.
   template <class Kinematics, class G, class Material, class State, class S>
-  static Cause evaluate(const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry, const Material& material,
-                        const Vec<S, dofs>& u, const std::array<State, points>& old, Real dt,
+  static Cause evaluate(const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry,
+                        const Material& material, const Vec<S, dofs>& u, const std::array<State, points>& old, Real dt,
                         ElementResult<S, dofs, points, State>& out) {
     using std::pow;
     using Shape = typename Kinematics::Shape;
@@ -116,7 +116,8 @@ struct MeanDilatation {
         const auto [i, I] = Shape::pairs[std::size_t(a)];
         for (int b = 0; b < size; ++b) {
           const auto [k, K] = Shape::pairs[std::size_t(b)];
-          if (Shape::couples(I, k) && Shape::couples(K, i)) M[p](a, b) += swirl * F_inverse[p](I, k) * F_inverse[p](K, i);
+          if (Shape::couples(I, k) && Shape::couples(K, i))
+            M[p](a, b) += swirl * F_inverse[p](I, k) * F_inverse[p](K, i);
         }
       }
       add_congruence<symmetry>(geometry[p], M[p], out.tangent);

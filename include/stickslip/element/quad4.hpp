@@ -23,7 +23,8 @@ struct Quad4 {
 
   static Vec<Real, nodes> shape(const Vec<Real, dim>& xi) {
     Vec<Real, nodes> N;
-    for (int a = 0; a < nodes; ++a) N[a] = 0.25 * (1 + corner[std::size_t(a)][0] * xi[0]) * (1 + corner[std::size_t(a)][1] * xi[1]);
+    for (int a = 0; a < nodes; ++a)
+      N[a] = 0.25 * (1 + corner[std::size_t(a)][0] * xi[0]) * (1 + corner[std::size_t(a)][1] * xi[1]);
     return N;
   }
   /// d N_a / d xi_j.

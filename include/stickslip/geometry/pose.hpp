@@ -34,21 +34,23 @@ class Motion {
  public:
   Motion() noexcept {}  // not defaulted: GCC 12 breaks down on the member initialisers of an aggregate that holds one
   template <class F>
-    requires std::invocable<const F&, Real> && (!std::same_as<F, Motion>)
-  Motion(F f) {  // NOLINT(google-explicit-constructor): a lambda is the usual argument
-    if constexpr (std::convertible_to<std::invoke_result_t<const F&, Real>, Pose<dim>>)
-      pose_ = std::move(f);
-    else
-      pose_ = [f = std::move(f)](Real t) {
-        Pose<dim> pose;
-        pose.translation = f(t);
-        return pose;
-      };
-  }
-  Pose<dim> at(Real time) const { return pose_ ? pose_(time) : Pose<dim>{}; }
+    requires std::invocable<const F&, Real> &&
+        (!std::same_as<F, Motion>)Motion(F f) {  // NOLINT(google-explicit-constructor): a lambda is the usual argument
+      if constexpr (std::convertible_to<std::invoke_result_t<const F&, Real>, Pose<dim>>)
+        pose_ = std::move(f);
+      else
+        pose_ = [f = std::move(f)](Real t) {
+          Pose<dim> pose;
+          pose.translation = f(t);
+          return pose;
+        };
+    }
+    Pose<dim> at(Real time) const {
+      return pose_ ? pose_(time) : Pose<dim>{};
+    }
 
- private:
-  std::function<Pose<dim>(Real)> pose_;
+   private:
+    std::function<Pose<dim>(Real)> pose_;
 };
 
 }  // namespace stickslip::rigid

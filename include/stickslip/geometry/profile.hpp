@@ -100,7 +100,7 @@ class Profile {
   std::vector<Vec<Real, 2>> sample(Real spacing, Real reach) const {
     std::vector<Vec<Real, 2>> points;
     for (const Piece& piece : pieces_) {
-      const Real low = std::max(piece.low, -reach), high = std::min(piece.high, reach);
+      const Real low = std::isinf(piece.low) ? -reach : piece.low, high = std::isinf(piece.high) ? reach : piece.high;
       const int n = piece.curvature == 0 ? 1 : std::max(1, static_cast<int>(std::ceil((high - low) / spacing)));
       for (int i = points.empty() ? 0 : 1; i <= n; ++i) points.push_back(position(piece, low + (high - low) * i / n));
     }
@@ -139,7 +139,8 @@ class Profile {
   }
 
   Profile& add(Real length, Real curvature) {
-    if (!(length > 0) || !std::isfinite(length)) throw std::invalid_argument("profile: every piece needs a positive finite length");
+    if (!(length > 0) || !std::isfinite(length))
+      throw std::invalid_argument("profile: every piece needs a positive finite length");
     Piece piece{.start = end_, .heading = heading_, .high = length, .curvature = curvature, .offset = length_};
     if (!pieces_.empty()) {
       const Joint joint = joint_between(last_heading_, heading_);
@@ -153,13 +154,14 @@ class Profile {
     return *this;
   }
   Profile& add_arc(Real radius, Real angle, int turn) {
-    if (!(radius > 0) || !std::isfinite(radius)) throw std::invalid_argument("profile: an arc needs a positive finite radius");
+    if (!(radius > 0) || !std::isfinite(radius))
+      throw std::invalid_argument("profile: an arc needs a positive finite radius");
     if (!(angle > 0 && angle <= 2 * pi)) throw std::invalid_argument("profile: an arc's angle must lie in (0, 2 pi]");
     return add(radius * angle, turn / radius);
   }
 
-  // Local coordinate of the point of the (extended) piece closest to x; on an arc counted from its middle, so that it is
-  // continuous over the arc.
+  // Local coordinate of the point of the (extended) piece closest to x; on an arc counted from its middle, so that it
+  // is continuous over the arc.
   template <class S>
   static S local_coordinate(const Piece& p, const Vec<S, 2>& x) {
     using std::atan2;
@@ -169,7 +171,8 @@ class Profile {
     const Vec<Real, 2> r = position(p, middle) - c;
     const S vx = x[0] - S(c[0]), vy = x[1] - S(c[1]);
     const S along = vx * r[0] + vy * r[1], across = vy * r[0] - vx * r[1];
-    if (value_of(along) == 0 && value_of(across) == 0) return S(middle);  // the arc's centre has no closest point: take the middle
+    if (value_of(along) == 0 && value_of(across) == 0)
+      return S(middle);  // the arc's centre has no closest point: take the middle
     return S(middle) - atan2(across, along) / S(p.curvature);
   }
 
@@ -214,7 +217,8 @@ class Profile {
     const S stretch = S(1) / (S(1) + at.gap * p.curvature);
     at.grad_place = tangent * stretch;
     at.hess_gap = tangent * tangent.transpose() * S(stretch * p.curvature);
-    at.hess_place[0] = (tangent * at.normal.transpose() + at.normal * tangent.transpose()) * S(-(stretch * stretch * p.curvature));
+    at.hess_place[0] =
+        (tangent * at.normal.transpose() + at.normal * tangent.transpose()) * S(-(stretch * stretch * p.curvature));
     return at;
   }
 
@@ -241,7 +245,9 @@ class Profile {
 };
 
 /// A chain that begins at `start` and sets out in the direction `heading`.
-inline Profile path(const Vec<Real, 2>& start, const Vec<Real, 2>& heading) { return {start, heading}; }
+inline Profile path(const Vec<Real, 2>& start, const Vec<Real, 2>& heading) {
+  return {start, heading};
+}
 
 /// An endless straight line through `point`; the body is on the left of `direction`.
 inline Profile line(const Vec<Real, 2>& point, const Vec<Real, 2>& direction) {
@@ -273,7 +279,8 @@ inline Profile rounded(const std::vector<Vec<Real, 2>>& points, Real radius) {
     }
     const Real rest = edge.norm() - used - cut;
     if (!(rest > 0))
-      throw std::invalid_argument("profile: the corner radius is too large for the edge before point " + std::to_string(i));
+      throw std::invalid_argument("profile: the corner radius is too large for the edge before point " +
+                                  std::to_string(i));
     profile.straight(rest);
     if (turn != 0 && radius > 0)
       turn < 0 ? profile.right(radius, -turn) : profile.left(radius, turn);

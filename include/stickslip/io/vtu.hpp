@@ -38,13 +38,14 @@ inline std::string base64(std::span<const unsigned char> bytes) {
 
 // A VTK data array in binary form: the byte count, then the numbers.
 template <class T>
-void write_array(std::ostream& out, const char* type, const std::string& name, int components, const std::vector<T>& values) {
+void write_array(std::ostream& out, const char* type, const std::string& name, int components,
+                 const std::vector<T>& values) {
   const std::uint64_t bytes = values.size() * sizeof(T);
   std::vector<unsigned char> data(sizeof(bytes) + bytes);
   std::memcpy(data.data(), &bytes, sizeof(bytes));
   if (bytes > 0) std::memcpy(data.data() + sizeof(bytes), values.data(), bytes);
-  out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components << "\" format=\"binary\">"
-      << base64(data) << "</DataArray>\n";
+  out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
+      << "\" format=\"binary\">" << base64(data) << "</DataArray>\n";
 }
 
 inline std::ofstream open(const std::filesystem::path& path) {
@@ -57,8 +58,8 @@ inline std::ofstream open(const std::filesystem::path& path) {
 
 /// Writes the converged state as a VTK unstructured grid: reference coordinates; at nodes displacement, contact force
 /// [force], contact traction [force / reference area], slip and gap [length] (not a number where no tool is near the
-/// side); in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure and,
-/// where the material has it, plastic strain. In axisymmetry x is the radius, y the axis and z the hoop direction.
+/// side); in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure
+/// and, where the material has it, plastic strain. In axisymmetry x is the radius, y the axis and z the hoop direction.
 /// Throws std::runtime_error, naming the file, when it cannot be written.
 template <class Model>
 void write_vtu(const std::filesystem::path& path, const Problem<Model>& problem) {
@@ -66,7 +67,9 @@ void write_vtu(const std::filesystem::path& path, const Problem<Model>& problem)
   using Shape = typename Body::Shape;
   static_assert(std::endian::native == std::endian::little, "the file says that its numbers are little-endian");
   constexpr int dim = Body::dim;
-  constexpr bool plastic = requires(typename Body::State s) { s.plastic_strain; };
+  constexpr bool plastic = requires(typename Body::State s) {
+    s.plastic_strain;
+  };
   const auto& mesh = problem.body().mesh();
   const auto nodes = mesh.nodes.size(), cells = mesh.cells.size();
 
@@ -85,19 +88,22 @@ void write_vtu(const std::filesystem::path& path, const Problem<Model>& problem)
   static_assert(Body::MeshType::nodes_per_cell == 4 && dim == 2, "the cell type below is VTK's quadrilateral");
   const std::vector<std::uint8_t> types(cells, 9);
 
-  std::vector<Real> stress(6 * cells, 0.0), mises(cells, 0.0), pressure(cells, 0.0), plastic_strain(plastic ? cells : 0, 0.0), volume(cells, 0.0);
-  problem.body().visit_points(problem.displacement(), [&](Index cell, int, const Tensor<Real, Shape>& F, const auto& state, Real weight) {
-    const auto e = static_cast<std::size_t>(cell);
-    Tensor<Real, Shape> cauchy = kirchhoff(problem.body().material().respond(F, state, 0.0).P, F);
-    cauchy.v /= determinant(F);
-    static constexpr std::array<std::pair<int, int>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
-    for (std::size_t k = 0; k < order.size(); ++k)
-      if (Shape::couples(order[k].first, order[k].second)) stress[6 * e + k] += weight * cauchy(order[k].first, order[k].second);
-    mises[e] += weight * von_mises(cauchy);
-    pressure[e] -= weight * trace(cauchy) / 3;
-    if constexpr (plastic) plastic_strain[e] += weight * state.plastic_strain;
-    volume[e] += weight;
-  });
+  std::vector<Real> stress(6 * cells, 0.0), mises(cells, 0.0), pressure(cells, 0.0),
+      plastic_strain(plastic ? cells : 0, 0.0), volume(cells, 0.0);
+  problem.body().visit_points(
+      problem.displacement(), [&](Index cell, int, const Tensor<Real, Shape>& F, const auto& state, Real weight) {
+        const auto e = static_cast<std::size_t>(cell);
+        Tensor<Real, Shape> cauchy = kirchhoff(problem.body().material().respond(F, state, 0.0).P, F);
+        cauchy.v /= determinant(F);
+        static constexpr std::array<std::pair<int, int>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+        for (std::size_t k = 0; k < order.size(); ++k)
+          if (Shape::couples(order[k].first, order[k].second))
+            stress[6 * e + k] += weight * cauchy(order[k].first, order[k].second);
+        mises[e] += weight * von_mises(cauchy);
+        pressure[e] -= weight * trace(cauchy) / 3;
+        if constexpr (plastic) plastic_strain[e] += weight * state.plastic_strain;
+        volume[e] += weight;
+      });
   for (std::size_t e = 0; e < cells; ++e) {
     for (std::size_t k = 0; k < 6; ++k) stress[6 * e + k] /= volume[e];
     mises[e] /= volume[e];
@@ -106,7 +112,8 @@ void write_vtu(const std::filesystem::path& path, const Problem<Model>& problem)
   }
 
   std::ofstream out = detail::open(path);
-  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+         "header_type=\"UInt64\">\n"
       << "<UnstructuredGrid><Piece NumberOfPoints=\"" << nodes << "\" NumberOfCells=\"" << cells << "\">\n<Points>\n";
   detail::write_array(out, "Float64", "points", 3, points);
   out << "</Points>\n<Cells>\n";
@@ -116,14 +123,16 @@ void write_vtu(const std::filesystem::path& path, const Problem<Model>& problem)
   out << "</Cells>\n<PointData Vectors=\"displacement\">\n";
   detail::write_array(out, "Float64", "displacement", 3, displacement);
   if constexpr (has_contact<Model>) {
-    std::vector<Real> force(3 * nodes, 0.0), traction(3 * nodes, 0.0), slip(nodes, 0.0), gap(nodes, std::numeric_limits<Real>::infinity());
+    std::vector<Real> force(3 * nodes, 0.0), traction(3 * nodes, 0.0), slip(nodes, 0.0),
+        gap(nodes, std::numeric_limits<Real>::infinity());
     for (const auto& pair : problem.contacts())
       for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
         const Index node = pair.nodes()[k];
         const auto n = static_cast<std::size_t>(node);
         const ContactNodeState<dim>& state = pair.states()[k];
         Real area = 0;
-        for (const auto& facet : mesh.side(pair.contact().side).facets) area += facet_share(mesh, problem.body().kinematics(), facet, node);
+        for (const auto& facet : mesh.side(pair.contact().side).facets)
+          area += facet_share(mesh, problem.body().kinematics(), facet, node);
         for (std::size_t i = 0; i < dim; ++i) {
           force[3 * n + i] += state.force[static_cast<int>(i)];
           traction[3 * n + i] += state.force[static_cast<int>(i)] / area;
@@ -151,7 +160,8 @@ void write_vtu(const std::filesystem::path& path, const Problem<Model>& problem)
 /// is rewritten after every state, so that an interrupted run leaves a readable one.
 class VtuSeries {
  public:
-  VtuSeries(std::filesystem::path directory, std::string name) : directory_(std::move(directory)), name_(std::move(name)) {
+  VtuSeries(std::filesystem::path directory, std::string name)
+      : directory_(std::move(directory)), name_(std::move(name)) {
     std::filesystem::create_directories(directory_);
   }
 
@@ -165,8 +175,10 @@ class VtuSeries {
     const auto path = directory_ / (name_ + ".pvd");
     std::ofstream out = detail::open(path);
     out.precision(17);
-    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
-    for (const auto& [time, vtu] : entries_) out << "<DataSet timestep=\"" << time << "\" part=\"0\" file=\"" << vtu << "\"/>\n";
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+           "byte_order=\"LittleEndian\">\n<Collection>\n";
+    for (const auto& [time, vtu] : entries_)
+      out << "<DataSet timestep=\"" << time << "\" part=\"0\" file=\"" << vtu << "\"/>\n";
     out << "</Collection>\n</VTKFile>\n";
     if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
   }

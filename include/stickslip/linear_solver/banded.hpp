@@ -13,9 +13,10 @@
 
 extern "C" {
 void dpbtrf_(const char* uplo, const int* n, const int* kd, double* ab, const int* ldab, int* info, std::size_t);
-void dpbtrs_(const char* uplo, const int* n, const int* kd, const int* nrhs, const double* ab, const int* ldab, double* b,
-             const int* ldb, int* info, std::size_t);
-void dgbtrf_(const int* m, const int* n, const int* kl, const int* ku, double* ab, const int* ldab, int* ipiv, int* info);
+void dpbtrs_(const char* uplo, const int* n, const int* kd, const int* nrhs, const double* ab, const int* ldab,
+             double* b, const int* ldb, int* info, std::size_t);
+void dgbtrf_(const int* m, const int* n, const int* kl, const int* ku, double* ab, const int* ldab, int* ipiv,
+             int* info);
 void dgbtrs_(const char* trans, const int* n, const int* kl, const int* ku, const int* nrhs, const double* ab,
              const int* ldab, const int* ipiv, double* b, const int* ldb, int* info, std::size_t);
 }
@@ -36,21 +37,24 @@ inline BandOrdering band_ordering(const SparseView& m) {
     Index widest = 0;
     for (Index j = 0; j < m.size; ++j)
       for (Index k = m.column_start[j]; k < m.column_start[j + 1]; ++k)
-        widest = std::max(widest, std::abs(place[static_cast<std::size_t>(m.row[k])] - place[static_cast<std::size_t>(j)]));
+        widest =
+            std::max(widest, std::abs(place[static_cast<std::size_t>(m.row[k])] - place[static_cast<std::size_t>(j)]));
     return widest;
   };
   BandOrdering natural;
   for (Index i = 0; i < m.size; ++i) natural.place.push_back(i);
   natural.half_bandwidth = bandwidth(natural.place);
 
-  using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS,
-                                      boost::property<boost::vertex_color_t, boost::default_color_type, boost::property<boost::vertex_degree_t, int>>>;
+  using Graph = boost::adjacency_list<
+      boost::vecS, boost::vecS, boost::undirectedS,
+      boost::property<boost::vertex_color_t, boost::default_color_type, boost::property<boost::vertex_degree_t, int>>>;
   Graph graph(static_cast<std::size_t>(m.size));
   for (Index j = 0; j < m.size; ++j)
     for (Index k = m.column_start[j]; k < m.column_start[j + 1]; ++k)
       if (m.row[k] > j) boost::add_edge(static_cast<std::size_t>(m.row[k]), static_cast<std::size_t>(j), graph);
   std::vector<std::size_t> order;
-  boost::cuthill_mckee_ordering(graph, std::back_inserter(order), boost::get(boost::vertex_color, graph), boost::make_degree_map(graph));
+  boost::cuthill_mckee_ordering(graph, std::back_inserter(order), boost::get(boost::vertex_color, graph),
+                                boost::make_degree_map(graph));
   BandOrdering reduced;
   reduced.place.resize(static_cast<std::size_t>(m.size));
   for (std::size_t i = 0; i < order.size(); ++i) reduced.place[order[i]] = m.size - 1 - static_cast<Index>(i);
@@ -69,7 +73,8 @@ class BandLu {
   }
   void set_zero() { std::fill(band_.begin(), band_.end(), 0.0); }
   Real& at(Index row, Index column) {
-    return band_[static_cast<std::size_t>(2 * k_ + row - column) + static_cast<std::size_t>(rows()) * static_cast<std::size_t>(column)];
+    return band_[static_cast<std::size_t>(2 * k_ + row - column) +
+                 static_cast<std::size_t>(rows()) * static_cast<std::size_t>(column)];
   }
   bool factorize() {
     int info = 0;
@@ -109,7 +114,8 @@ class BandedCholesky {
     permuted_.resize(static_cast<std::size_t>(n_));
     slots_.clear();
     for_each(pattern, [&](Index row, Index column, Index) {
-      slots_.push_back(static_cast<std::size_t>(std::abs(row - column)) + static_cast<std::size_t>(k_ + 1) * static_cast<std::size_t>(std::min(row, column)));
+      slots_.push_back(static_cast<std::size_t>(std::abs(row - column)) +
+                       static_cast<std::size_t>(k_ + 1) * static_cast<std::size_t>(std::min(row, column)));
     });
     lu_ready_ = false;
   }
@@ -125,19 +131,22 @@ class BandedCholesky {
     if (!lu_ready_) lu_.resize(n_, k_);
     lu_ready_ = true;
     lu_.set_zero();
-    for_each(matrix, [&](Index row, Index column, Index e) { lu_.at(row, column) = lu_.at(column, row) = matrix.values[e]; });
+    for_each(matrix,
+             [&](Index row, Index column, Index e) { lu_.at(row, column) = lu_.at(column, row) = matrix.values[e]; });
     return lu_.factorize() ? Factorization::indefinite : Factorization::failed;
   }
 
   bool solve(const Real* right_hand_side, Real* solution) {
-    for (std::size_t i = 0; i < permuted_.size(); ++i) permuted_[static_cast<std::size_t>(order_.place[i])] = right_hand_side[i];
+    for (std::size_t i = 0; i < permuted_.size(); ++i)
+      permuted_[static_cast<std::size_t>(order_.place[i])] = right_hand_side[i];
     int info = 0;
     const int ld = k_ + 1, one = 1;
     if (indefinite_)
       info = lu_.solve(permuted_.data()) ? 0 : 1;
     else
       dpbtrs_("L", &n_, &k_, &one, band_.data(), &ld, permuted_.data(), &n_, &info, 1);
-    for (std::size_t i = 0; i < permuted_.size(); ++i) solution[i] = permuted_[static_cast<std::size_t>(order_.place[i])];
+    for (std::size_t i = 0; i < permuted_.size(); ++i)
+      solution[i] = permuted_[static_cast<std::size_t>(order_.place[i])];
     return info == 0;
   }
 
@@ -175,13 +184,16 @@ class BandedLu {
     lu_.set_zero();
     for (Index j = 0; j < m.size; ++j)
       for (Index e = m.column_start[j]; e < m.column_start[j + 1]; ++e)
-        lu_.at(order_.place[static_cast<std::size_t>(m.row[e])], order_.place[static_cast<std::size_t>(j)]) = m.values[e];
+        lu_.at(order_.place[static_cast<std::size_t>(m.row[e])], order_.place[static_cast<std::size_t>(j)]) =
+            m.values[e];
     return lu_.factorize() ? Factorization::done : Factorization::failed;
   }
   bool solve(const Real* right_hand_side, Real* solution) {
-    for (std::size_t i = 0; i < permuted_.size(); ++i) permuted_[static_cast<std::size_t>(order_.place[i])] = right_hand_side[i];
+    for (std::size_t i = 0; i < permuted_.size(); ++i)
+      permuted_[static_cast<std::size_t>(order_.place[i])] = right_hand_side[i];
     if (!lu_.solve(permuted_.data())) return false;
-    for (std::size_t i = 0; i < permuted_.size(); ++i) solution[i] = permuted_[static_cast<std::size_t>(order_.place[i])];
+    for (std::size_t i = 0; i < permuted_.size(); ++i)
+      solution[i] = permuted_[static_cast<std::size_t>(order_.place[i])];
     return true;
   }
 

@@ -12,8 +12,8 @@
 namespace stickslip {
 
 /// CHOLMOD's sparse Cholesky (supernodal or simplicial as it finds best). An indefinite matrix falls back to its
-/// simplicial L D L^T, which does not pivot: the solution is then checked against the matrix and refined, and refused if
-/// it stays wrong. Link stickslip::cholmod; note CHOLMOD's licence (LGPL, the supernodal part GPL).
+/// simplicial L D L^T, which does not pivot: the solution is then checked against the matrix and refined, and refused
+/// if it stays wrong. Link stickslip::cholmod; note CHOLMOD's licence (LGPL, the supernodal part GPL).
 class Cholmod {
  public:
   using Role = role::LinearSolver;
@@ -67,7 +67,8 @@ class Cholmod {
 
   bool solve(const Real* right_hand_side, Real* solution) {
     if (!indefinite_) return backsolve(right_hand_side, solution);
-    return refinement_.solve(matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return backsolve(b, x); });
+    return refinement_.solve(matrix_, right_hand_side, solution,
+                             [this](const Real* b, Real* x) { return backsolve(b, x); });
   }
 
  private:
@@ -107,7 +108,8 @@ class Cholmod {
     rhs.x = const_cast<Real*>(b);
     rhs.xtype = CHOLMOD_REAL;
     rhs.dtype = CHOLMOD_DOUBLE;
-    if (!cholmod_solve2(CHOLMOD_A, indefinite_ ? indefinite_factor_ : factor_, &rhs, nullptr, &solution_, nullptr, &work_y_, &work_e_, common_.get()))
+    if (!cholmod_solve2(CHOLMOD_A, indefinite_ ? indefinite_factor_ : factor_, &rhs, nullptr, &solution_, nullptr,
+                        &work_y_, &work_e_, common_.get()))
       return false;
     std::copy_n(static_cast<const Real*>(solution_->x), n, x);
     return true;

@@ -10,8 +10,8 @@
 
 namespace stickslip {
 
-/// Eigen's simplicial L D L^T with approximate minimum degree. It does not pivot: of an indefinite matrix the solution is
-/// checked and refined, and refused if it stays wrong; a zero pivot fails.
+/// Eigen's simplicial L D L^T with approximate minimum degree. It does not pivot: of an indefinite matrix the solution
+/// is checked and refined, and refused if it stays wrong; a zero pivot fails.
 class EigenLdlt {
  public:
   using Role = role::LinearSolver;
@@ -21,7 +21,8 @@ class EigenLdlt {
   void analyze(const SparseView& pattern) {
     refinement_.resize(pattern.size);
     const std::vector<Real> zeros(static_cast<std::size_t>(pattern.nonzeros()), 0.0);
-    solver_.analyzePattern(Map(pattern.size, pattern.size, pattern.nonzeros(), pattern.column_start, pattern.row, zeros.data()));
+    solver_.analyzePattern(
+        Map(pattern.size, pattern.size, pattern.nonzeros(), pattern.column_start, pattern.row, zeros.data()));
   }
   Factorization factorize(const SparseView& matrix) {
     solver_.factorize(Map(matrix.size, matrix.size, matrix.nonzeros(), matrix.column_start, matrix.row, matrix.values));
@@ -32,7 +33,8 @@ class EigenLdlt {
   }
   bool solve(const Real* right_hand_side, Real* solution) {
     if (!indefinite_) return backsolve(right_hand_side, solution);
-    return refinement_.solve(matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return backsolve(b, x); });
+    return refinement_.solve(matrix_, right_hand_side, solution,
+                             [this](const Real* b, Real* x) { return backsolve(b, x); });
   }
 
  private:

@@ -18,7 +18,8 @@ class EigenLu {
 
   void analyze(const SparseView& pattern) {
     const std::vector<Real> zeros(static_cast<std::size_t>(pattern.nonzeros()), 0.0);
-    solver_.analyzePattern(Map(pattern.size, pattern.size, pattern.nonzeros(), pattern.column_start, pattern.row, zeros.data()));
+    solver_.analyzePattern(
+        Map(pattern.size, pattern.size, pattern.nonzeros(), pattern.column_start, pattern.row, zeros.data()));
   }
   Factorization factorize(const SparseView& matrix) {
     solver_.factorize(Map(matrix.size, matrix.size, matrix.nonzeros(), matrix.column_start, matrix.row, matrix.values));

@@ -27,7 +27,8 @@ class Umfpack {
 
   void analyze(const SparseView& pattern) {
     umfpack_di_free_symbolic(&symbolic_);
-    umfpack_di_symbolic(pattern.size, pattern.size, pattern.column_start, pattern.row, nullptr, &symbolic_, control_.data(), nullptr);
+    umfpack_di_symbolic(pattern.size, pattern.size, pattern.column_start, pattern.row, nullptr, &symbolic_,
+                        control_.data(), nullptr);
     integers_.resize(static_cast<std::size_t>(pattern.size));
     reals_.resize(5 * static_cast<std::size_t>(pattern.size));
   }
@@ -36,13 +37,14 @@ class Umfpack {
     if (!symbolic_) return Factorization::failed;
     matrix_ = matrix;
     umfpack_di_free_numeric(&numeric_);
-    const int status = umfpack_di_numeric(matrix.column_start, matrix.row, matrix.values, symbolic_, &numeric_, control_.data(), nullptr);
+    const int status = umfpack_di_numeric(matrix.column_start, matrix.row, matrix.values, symbolic_, &numeric_,
+                                          control_.data(), nullptr);
     return status == UMFPACK_OK ? Factorization::done : Factorization::failed;
   }
 
   bool solve(const Real* right_hand_side, Real* solution) {
-    return umfpack_di_wsolve(UMFPACK_A, matrix_.column_start, matrix_.row, matrix_.values, solution, right_hand_side, numeric_,
-                             control_.data(), nullptr, integers_.data(), reals_.data()) == UMFPACK_OK;
+    return umfpack_di_wsolve(UMFPACK_A, matrix_.column_start, matrix_.row, matrix_.values, solution, right_hand_side,
+                             numeric_, control_.data(), nullptr, integers_.data(), reals_.data()) == UMFPACK_OK;
   }
 
  private:

@@ -10,8 +10,11 @@ namespace stickslip {
 
 /// Multiplicative J2 plasticity with isotropic hardening: F = Fe Fp, Hencky elasticity, exponential return map in
 /// principal axes, exact algorithmic tangent (theory.md, section 3.3). Plastic flow keeps the volume to round-off.
-template <HardeningPolicy Hardening>
+template <class Hardening>
 struct FiniteJ2 {
+  static_assert(
+      HardeningPolicy<Hardening>,
+      "stickslip: the Hardening of FiniteJ2 does not meet HardeningPolicy; see docs/policies.md, section Hardening.");
   using Role = role::Material;
   static constexpr Symmetry symmetry = Symmetry::symmetric;
 
@@ -26,7 +29,8 @@ struct FiniteJ2 {
   };
 
   template <class S, class Shape>
-  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>& old, Real) const {
+  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>& old,
+                                                      Real) const {
     using std::exp, std::log, std::sqrt;
     const auto [bulk, shear] = ElasticModuli::from(young, poisson);
     const Tensor<S, Shape> F_inverse = inverse(F);
@@ -44,6 +48,10 @@ struct FiniteJ2 {
     S ratio = S(1);      // |dev tau| over that of the trial: the secant of the return
     S softening = S(0);  // what the consistent tangent loses along the flow direction, over 2 shear
     const FlowStress<S> now = hardening.flow(old.plastic_strain);
+    if (!(value_of(now.value) > 0)) {  // softened away: no stress follows
+      out.cause = Cause::material_failed;
+      return out;
+    }
     if (value_of(squared) * 6 * shear * shear > value_of(now.value) * value_of(now.value)) {
       const S trial = sqrt(squared * S(6)) * shear;  // von Mises equivalent of the trial stress
       const auto r = return_map(trial, old.plastic_strain, now, shear);
@@ -66,7 +74,8 @@ struct FiniteJ2 {
     for (int A = 0; A < 3; ++A) {
       stress.tau[A] = S(2 * shear) * ratio * deviator[A] + S(bulk) * volumetric;
       for (int B = 0; B < 3; ++B)
-        stress.dtau_de(A, B) = S(bulk) + S(2 * shear) * (ratio * S((A == B ? 1. : 0.) - 1. / 3) - softening * deviator[A] * deviator[B]);
+        stress.dtau_de(A, B) =
+            S(bulk) + S(2 * shear) * (ratio * S((A == B ? 1. : 0.) - 1. / 3) - softening * deviator[A] * deviator[B]);
     }
     stress.secant = S(2 * shear) * ratio;
     from_principal(b, F_inverse, stress, out);
@@ -91,19 +100,22 @@ struct FiniteJ2 {
   void validate() const {
     ElasticModuli::validate(young, poisson);
     if constexpr (requires { hardening.validate(); }) hardening.validate();
+    if (!(hardening.flow(Real(0)).slope > -3 * ElasticModuli::from(young, poisson).shear))
+      throw std::invalid_argument(
+          "material: the hardening softens faster than 3 times the shear modulus; no stress follows");
   }
 
  private:
   /// Solves trial - 3 shear d - sigma(p + d) = 0 for d in (0, trial / (3 shear)): Newton's method inside a bracket that
-  /// shrinks, for the power law starts almost vertically. One last step beyond convergence carries the derivatives of a
-  /// dual number.
+  /// shrinks, for the power law starts almost vertically. One last step squares the error and carries the derivatives
+  /// of a dual number.
   template <class S>
   auto return_map(const S& trial, const S& p, const FlowStress<S>& now, Real shear) const {
     struct Return {
       S increment, slope;
       Cause cause;
     };
-    const Real tolerance = 1e-14 * value_of(trial);
+    const Real tolerance = 1e-9 * value_of(trial);  // the last step squares it
     Real low = 0, high = value_of(trial) / (3 * shear);
     S d = S(0);
     FlowStress<S> flow = now;
@@ -115,7 +127,7 @@ struct FiniteJ2 {
       if (!last && !(value_of(next) > low && value_of(next) < high)) next = S(0.5 * (low + high));
       d = next;
       flow = hardening.flow(S(p + d));
-      if (last) return Return{d, flow.slope, Cause::none};
+      if (last) return Return{d, flow.slope, value_of(flow.value) > 0 ? Cause::none : Cause::material_failed};
     }
     return Return{d, flow.slope, Cause::material_failed};
   }

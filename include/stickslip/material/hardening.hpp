@@ -40,8 +40,10 @@ struct PowerHardening {
   }
   void validate() const {
     if (!(strength > 0)) throw std::invalid_argument("power hardening: the strength must be positive");
-    if (!(offset > 0)) throw std::invalid_argument("power hardening: the offset must be positive, or the flow stress starts at zero");
-    if (!(exponent > 0 && exponent <= 1)) throw std::invalid_argument("power hardening: the exponent must lie in (0, 1]");
+    if (!(offset > 0))
+      throw std::invalid_argument("power hardening: the offset must be positive, or the flow stress starts at zero");
+    if (!(exponent > 0 && exponent <= 1))
+      throw std::invalid_argument("power hardening: the exponent must lie in (0, 1]");
   }
 };
 

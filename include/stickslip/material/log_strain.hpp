@@ -25,16 +25,16 @@ struct ElasticModuli {
 /// Stress of an isotropic law in the frame of its principal logarithmic strains e_A.
 template <class S>
 struct PrincipalStress {
-  Vec<S, 3> tau;       ///< principal Kirchhoff stresses
-  Mat<S, 3> dtau_de;   ///< their derivatives by the strains
-  S secant;            ///< tau_A - tau_B = secant (e_A - e_B): twice the secant shear modulus
+  Vec<S, 3> tau;      ///< principal Kirchhoff stresses
+  Mat<S, 3> dtau_de;  ///< their derivatives by the strains
+  S secant;           ///< tau_A - tau_B = secant (e_A - e_B): twice the secant shear modulus
 };
 
 /// First Piola-Kirchhoff stress and consistent tangent of a law that is isotropic in the trial elastic strain
 /// e_A = ln(values_A) / 2 of b = F G F^T, G fixed (theory.md, eq. 3.4-3.7). `principal` is the spectral form of b.
 template <class S, class Shape, class Response>
-void from_principal(const Spectral<S, Shape>& principal, const Tensor<S, Shape>& F_inverse, const PrincipalStress<S>& stress,
-                    Response& out) {
+void from_principal(const Spectral<S, Shape>& principal, const Tensor<S, Shape>& F_inverse,
+                    const PrincipalStress<S>& stress, Response& out) {
   constexpr int size = Shape::size;
   const Tensor<S, Shape>& n = principal.directions;
   const Tensor<S, Shape> N = product(F_inverse, n);  // column A: F^-1 n_A

@@ -41,11 +41,25 @@ struct Mesh {
     if (found != sides.end()) return found->second;
     std::string known;
     for (const auto& [other, side] : sides) known += (known.empty() ? "" : ", ") + other;
-    throw std::invalid_argument("the mesh has no side called \"" + name + "\"; it has: " + (known.empty() ? "none" : known));
+    throw std::invalid_argument("the mesh has no side called \"" + name +
+                                "\"; it has: " + (known.empty() ? "none" : known));
   }
 };
 
 namespace mesh {
+
+/// Adds a side that is the union of others, each node once: a contact that goes around corners.
+template <int dim, int nodes_per_cell>
+void join(Mesh<dim, nodes_per_cell>& mesh, const std::string& name, const std::vector<std::string>& parts) {
+  Side<dim> joined;
+  for (const std::string& part : parts) {
+    const Side<dim>& side = mesh.side(part);
+    joined.facets.insert(joined.facets.end(), side.facets.begin(), side.facets.end());
+    for (const Index n : side.nodes)
+      if (std::find(joined.nodes.begin(), joined.nodes.end(), n) == joined.nodes.end()) joined.nodes.push_back(n);
+  }
+  mesh.sides[name] = std::move(joined);
+}
 
 /// A structured rectangle: cells[0] x cells[1] quadrilaterals over [origin, origin + size].
 struct Rectangle {
@@ -57,7 +71,8 @@ struct Rectangle {
 /// Meshes a rectangle. Sides: left, right, bottom, top. Nodes are numbered along the direction with fewer cells first,
 /// which keeps the band of the matrices narrow.
 inline Mesh<2, 4> rectangle(const Rectangle& r) {
-  if (r.cells[0] < 1 || r.cells[1] < 1) throw std::invalid_argument("mesh rectangle: needs at least one cell in each direction");
+  if (r.cells[0] < 1 || r.cells[1] < 1)
+    throw std::invalid_argument("mesh rectangle: needs at least one cell in each direction");
   if (!(r.size[0] > 0 && r.size[1] > 0) || !r.size.allFinite() || !r.origin.allFinite())
     throw std::invalid_argument("mesh rectangle: the size must be positive and finite");
   const Index nx = r.cells[0], ny = r.cells[1];

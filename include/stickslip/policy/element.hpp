@@ -20,8 +20,29 @@ struct PointGeometry {
 
   Mat<G, nodes, dim> dN_dX;  ///< reference gradients of the shape functions [1/length]
   [[no_unique_address]] Only<Kinematics::hoop, Vec<G, nodes>, struct HoopTag> N_over_R;  ///< hoop operator [1/length]
-  G weight;                  ///< reference volume that the point stands for [length^3]
+  G weight;  ///< reference volume that the point stands for [length^3]
 };
+
+/// Geometry of a point from the nodes' reference coordinates (one row a node).
+template <class Kinematics, class Cell>
+PointGeometry<Kinematics, Cell::nodes> point_geometry(const Kinematics& kinematics,
+                                                      const Mat<Real, Cell::nodes, Cell::dim>& X,
+                                                      const Vec<Real, Cell::dim>& xi, Real quadrature_weight) {
+  static_assert(Cell::dim == 2, "the inverse below is that of the plane");
+  const Mat<Real, Cell::nodes, 2> dN_dxi = Cell::gradient(xi);
+  const Vec<Real, Cell::nodes> N = Cell::shape(xi);
+  const Mat<Real, 2> jacobian = X.transpose() * dN_dxi;
+  const Real det = jacobian(0, 0) * jacobian(1, 1) - jacobian(0, 1) * jacobian(1, 0);
+  Mat<Real, 2> inverse;
+  inverse << jacobian(1, 1), -jacobian(0, 1), -jacobian(1, 0), jacobian(0, 0);
+  inverse /= det;
+  const Vec<Real, 2> place = X.transpose() * N;
+  PointGeometry<Kinematics, Cell::nodes> point;
+  point.dN_dX = dN_dxi * inverse;
+  if constexpr (Kinematics::hoop) point.N_over_R = N / place[0];
+  point.weight = quadrature_weight * det * kinematics.measure(place);
+  return point;
+}
 
 /// What an element returns: nodal forces, their derivative (both triangles) and the memory of its points.
 template <class S, int dofs, int points, class State>
@@ -36,10 +57,11 @@ struct ElementResult {
 template <class E>
 concept ElementPolicy = requires(const Mat<Real, E::nodes, E::dim>& X, const Vec<Real, E::dim>& xi) {
   requires std::same_as<typename E::Role, role::Element>;
-  requires E::nodes > 0 && E::points > 0;
+  requires E::nodes >
+  0 && E::points > 0;
   { E::Cell::shape(xi) } -> std::same_as<Vec<Real, E::nodes>>;
   { E::Cell::gradient(xi) } -> std::same_as<Mat<Real, E::nodes, E::dim>>;
-  { E::Cell::quadrature() };
+  {E::Cell::quadrature()};
 };
 
 }  // namespace stickslip

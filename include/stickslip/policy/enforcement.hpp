@@ -26,14 +26,22 @@ struct NormalForce {
 /// How contact is enforced. `Memory<S>` is what a node remembers of it, `weight` the measure behind PenaltyPer.
 /// docs/policies.md, section Enforcement.
 template <class E>
-concept EnforcementPolicy = requires(const E& enforcement, const Real& gap, Real weight) {
+concept ContactEnforcement = requires(const E& enforcement, const Real& gap, Real weight,
+                                      const typename E::template Memory<Real>& memory) {
   requires std::same_as<typename E::Role, role::Enforcement>;
-  requires !E::active || requires(const typename E::template Memory<Real>& memory) {
-    requires std::same_as<decltype(E::symmetry), const Symmetry>;
-    { enforcement.per } -> std::convertible_to<PenaltyPer>;
-    { enforcement.normal_force(gap, weight, memory) } -> std::same_as<NormalForce<Real>>;
-    { enforcement.stick_stiffness(weight) } -> std::same_as<Real>;
-  };
+  requires std::same_as<decltype(E::symmetry), const Symmetry>;
+  { enforcement.per } -> std::convertible_to<PenaltyPer>;
+  { enforcement.normal_force(gap, weight, memory) } -> std::same_as<NormalForce<Real>>;
+  { enforcement.stick_stiffness(weight) } -> std::same_as<Real>;
 };
+
+/// The enforcement choice of a bundle: one of contact, or none. The disjunction stands outside `requires`, inside which
+/// Clang 14 does not stop at the first operand.
+template <class E>
+concept EnforcementPolicy = requires {
+  requires std::same_as<typename E::Role, role::Enforcement>;
+  requires std::same_as<decltype(E::active), const bool>;
+}
+&&(!E::active || ContactEnforcement<E>);
 
 }  // namespace stickslip

@@ -46,13 +46,14 @@ concept FrictionLaw = requires(const L& law, const FrictionPoint<Real>& at) {
   { law.bound(at) } -> std::same_as<FrictionBound<Real>>;
 };
 
-/// The friction choice of a bundle: a law, a law with another pressure source, or none.
+/// The friction choice of a bundle: a law, a law with another pressure source, or none. The disjunction stands outside
+/// `requires`, inside which Clang 14 does not stop at the first operand.
 template <class F>
 concept FrictionPolicy = requires {
   requires std::same_as<typename F::Role, role::Friction>;
-  requires !F::active || FrictionLaw<typename F::Law>;
-  requires !F::active || PressureSourcePolicy<typename F::Pressure>;
-};
+  requires std::same_as<decltype(F::active), const bool>;
+}
+&&(!F::active || (FrictionLaw<typename F::Law> && PressureSourcePolicy<typename F::Pressure>));
 
 /// The friction `Law_` with its bound fed by `Source`. Type only: the parameters are those of the law.
 template <class Law_, class Source>

@@ -32,11 +32,12 @@ enum class Factorization {
 /// while the pattern does. `accepts` is the widest symmetry of a system that it can solve, `storage` that of the
 /// matrices it wants to be handed. docs/policies.md, section Linear solver.
 template <class L>
-concept LinearSolverPolicy = requires(L& solver, const SparseView& matrix, const Real* right_hand_side, Real* solution) {
+concept LinearSolverPolicy = requires(L& solver, const SparseView& matrix, const Real* right_hand_side,
+                                      Real* solution) {
   requires std::same_as<typename L::Role, role::LinearSolver>;
   requires std::same_as<decltype(L::accepts), const Symmetry>;
   requires std::same_as<decltype(L::storage), const Symmetry>;
-  { solver.analyze(matrix) };
+  {solver.analyze(matrix)};
   { solver.factorize(matrix) } -> std::same_as<Factorization>;
   { solver.solve(right_hand_side, solution) } -> std::same_as<bool>;
 };

@@ -30,7 +30,7 @@ concept MaterialPolicy = requires(const M& material, const Tensor<Real, Shape>& 
   requires std::default_initializable<typename M::template State<Real, Shape>>;
   {
     material.respond(F, old, dt)
-  } -> std::same_as<MaterialResponse<Real, Shape, typename M::template State<Real, Shape>>>;
+    } -> std::same_as<MaterialResponse<Real, Shape, typename M::template State<Real, Shape>>>;
 };
 
 /// Flow stress and its slope at one accumulated plastic strain.

@@ -19,6 +19,10 @@ inline constexpr bool has_contact = Model::Enforcement::active;
 template <class Model>
 inline constexpr bool has_friction = has_contact<Model>&& Model::Friction::active;
 
+/// True when the bundle has inertia.
+template <class Model>
+inline constexpr bool has_inertia = Model::Inertia::active;
+
 /// Symmetry of the contact terms: enforcement, friction bound and pressure source together.
 template <class Model>
 constexpr Symmetry contact_symmetry() {
@@ -51,30 +55,75 @@ using SolverOf = typename detail::SolverFor<typename Model::LinearSolver, system
 template <class Model>
 inline constexpr Symmetry matrix_storage = widest(system_symmetry<Model>, SolverOf<Model>::storage);
 
+/// The rules of a bundle, a concept each. A rule that combines policies holds while one of them breaks its own
+/// contract: one mistake gives one sentence.
+namespace rule {
+template <class Model>
+concept Kinematics = KinematicsPolicy<typename Model::Kinematics>;
+template <class Model>
+concept Element = ElementPolicy<typename Model::Element>;
+template <class Model>
+concept SameDimension = !Kinematics<Model> || !Element<Model> || Model::Element::dim == Model::Kinematics::dim;
+template <class Model>
+concept Material = !Kinematics<Model> || MaterialPolicy<typename Model::Material, typename Model::Kinematics::Shape>;
+template <class Model>
+concept Friction = FrictionPolicy<typename Model::Friction>;
+template <class Model>
+concept Enforcement = EnforcementPolicy<typename Model::Enforcement>;
+template <class Model>
+concept FrictionNeedsContact =
+    !Friction<Model> || !Enforcement<Model> || Model::Enforcement::active || !Model::Friction::active;
+template <class Model>
+concept Inertia = InertiaPolicy<typename Model::Inertia>;
+template <class Model>
+concept HasSymmetry = Kinematics<Model> && Material<Model> && Friction<Model> && Enforcement<Model>;
+template <class Model>
+concept LinearSolver = !HasSymmetry<Model> || LinearSolverPolicy<SolverOf<Model>>;
+template <class Model>
+concept SolverAcceptsSystem =
+    !HasSymmetry<Model> || !LinearSolver<Model> || system_symmetry<Model> == Symmetry::symmetric ||
+    SolverOf<Model>::accepts == Symmetry::general;
+}  // namespace rule
+
+/// True for a bundle that meets every rule.
+template <class Model>
+inline constexpr bool valid_model = rule::Kinematics<Model>&& rule::Element<Model>&& rule::SameDimension<Model>&&
+    rule::Material<Model>&& rule::Friction<Model>&& rule::Enforcement<Model>&& rule::FrictionNeedsContact<Model>&&
+        rule::Inertia<Model>&& rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>;
+
 /// Instantiate to have a bundle checked, one sentence for each rule.
 template <class Model>
 struct CheckModel {
-  static_assert(KinematicsPolicy<typename Model::Kinematics>,
-                "stickslip: the bundle's Kinematics does not meet KinematicsPolicy; see docs/policies.md, section Kinematics.");
-  static_assert(ElementPolicy<typename Model::Element>,
+  static_assert(
+      rule::Kinematics<Model>,
+      "stickslip: the bundle's Kinematics does not meet KinematicsPolicy; see docs/policies.md, section Kinematics.");
+  static_assert(rule::Element<Model>,
                 "stickslip: the bundle's Element does not meet ElementPolicy; see docs/policies.md, section Element.");
-  static_assert(Model::Element::dim == Model::Kinematics::dim,
-                "stickslip: Element and Kinematics differ in dimension; choose an element of the kinematics' dimension.");
-  static_assert(MaterialPolicy<typename Model::Material, typename Model::Kinematics::Shape>,
-                "stickslip: the bundle's Material does not meet MaterialPolicy; see docs/policies.md, section Material.");
-  static_assert(FrictionPolicy<typename Model::Friction>,
-                "stickslip: the bundle's Friction does not meet FrictionPolicy; see docs/policies.md, section Friction.");
-  static_assert(EnforcementPolicy<typename Model::Enforcement>,
-                "stickslip: the bundle's Enforcement does not meet EnforcementPolicy; see docs/policies.md, section Enforcement.");
-  static_assert(has_contact<Model> || !Model::Friction::active,
-                "stickslip: the bundle has Friction but no contact to rub at; set Enforcement (Penalty) or make Friction Frictionless.");
-  static_assert(InertiaPolicy<typename Model::Inertia>,
+  static_assert(
+      rule::SameDimension<Model>,
+      "stickslip: Element and Kinematics differ in dimension; choose an element of the kinematics' dimension.");
+  static_assert(
+      rule::Material<Model>,
+      "stickslip: the bundle's Material does not meet MaterialPolicy; see docs/policies.md, section Material.");
+  static_assert(
+      rule::Friction<Model>,
+      "stickslip: the bundle's Friction does not meet FrictionPolicy; see docs/policies.md, section Friction.");
+  static_assert(rule::Enforcement<Model>,
+                "stickslip: the bundle's Enforcement does not meet EnforcementPolicy; see docs/policies.md, section "
+                "Enforcement.");
+  static_assert(rule::FrictionNeedsContact<Model>,
+                "stickslip: the bundle has Friction but no contact to rub at; set Enforcement (Penalty) or make "
+                "Friction Frictionless.");
+  static_assert(rule::Inertia<Model>,
                 "stickslip: the bundle's Inertia does not meet InertiaPolicy; see docs/policies.md, section Inertia.");
-  static_assert(LinearSolverPolicy<SolverOf<Model>>,
-                "stickslip: the bundle's LinearSolver does not meet LinearSolverPolicy; see docs/policies.md, section Linear solver.");
-  static_assert(system_symmetry<Model> == Symmetry::symmetric || SolverOf<Model>::accepts == Symmetry::general,
-                "stickslip: the bundle's LinearSolver takes symmetric systems only, but Friction with the current pressure (or the "
-                "Material) makes the tangent non-symmetric; take Quasi<...> friction, or a general solver such as EigenLu.");
+  static_assert(rule::LinearSolver<Model>,
+                "stickslip: the bundle's LinearSolver does not meet LinearSolverPolicy; see docs/policies.md, section "
+                "Linear solver.");
+  static_assert(
+      rule::SolverAcceptsSystem<Model>,
+      "stickslip: the bundle's LinearSolver takes symmetric systems only, but Friction with the current pressure (or "
+      "the "
+      "Material) makes the tangent non-symmetric; take Quasi<...> friction, or a general solver such as EigenLu.");
   static constexpr bool ok = true;
 };
 

@@ -12,19 +12,19 @@ namespace stickslip {
 
 /// Parameters of Newton's method.
 struct NewtonOptions {
-  Real tolerance = 1e-5;     ///< on the residual's norm over the force scale (theory.md, eq. 6.2)
+  Real tolerance = 1e-5;  ///< on the residual's norm over the force scale (theory.md, eq. 6.2)
   Index max_iterations = 20;
-  bool line_search = true;   ///< halve steps that do not lower the residual's norm
-  Index max_cuts = 5;        ///< of one step by the line search
+  bool line_search = true;  ///< shorten steps that do not lower the residual's norm
+  Index max_cuts = 5;       ///< of one step by the line search
 };
 
 /// What one solution of a step took.
 struct NewtonReport {
   Trouble trouble{};
-  Index iterations = 0;                ///< linear solutions
+  Index iterations = 0;  ///< linear solutions
   Index line_search_cuts = 0;
   Index indefinite_factorizations = 0;
-  Real residual = 0;                   ///< last residual over force scale [-]
+  Real residual = 0;  ///< last residual over force scale [-]
 };
 
 /// Counts of work that outlive a step.
@@ -56,7 +56,7 @@ class Newton {
       const Real norm = system.residual_norm();
       const Real scale = system.force_scale();
       report.residual = scale > 0 ? norm / scale : 0;
-      if (!driven && norm <= options.tolerance * scale) return report;
+      if (!driven && (norm <= options.tolerance * scale || norm <= system.roundoff(u))) return report;
       if (report.iterations == options.max_iterations) {
         report.trouble.cause = Cause::not_converged;
         return report;
@@ -122,7 +122,8 @@ class Newton {
       if (f == Factorization::failed) return {Cause::singular_matrix, {}};
     }
     const Stopwatch watch(system.timings.solve);
-    if (!solver_.solve(system.residual().data(), step_.data()) || !step_.allFinite()) return {Cause::singular_matrix, {}};
+    if (!solver_.solve(system.residual().data(), step_.data()) || !step_.allFinite())
+      return {Cause::singular_matrix, {}};
     return {};
   }
 

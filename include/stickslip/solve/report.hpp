@@ -8,12 +8,12 @@ namespace stickslip {
 
 /// A converged step.
 struct StepReport {
-  Index number = 0;       ///< from 1
+  Index number = 0;  ///< from 1
   Real time = 0;
   Real dt = 0;
-  Index iterations = 0;   ///< Newton iterations of this step, those of rejected attempts not counted
-  Index rejected = 0;     ///< attempts that were thrown away before it
-  Real residual = 0;      ///< over the force scale
+  Index iterations = 0;  ///< Newton iterations of this step, those of rejected attempts not counted
+  Index rejected = 0;    ///< attempts that were thrown away before it
+  Real residual = 0;     ///< over the force scale
   ContactSummary contact{};
   /// Largest change of a node's friction bound that the law has not seen yet, over the largest bound (theory.md, eq.
   /// 5.11); zero for laws that follow the current pressure.
@@ -23,7 +23,7 @@ struct StepReport {
 /// Sums over a run.
 struct RunReport {
   Index steps = 0;
-  Index iterations = 0;      ///< of accepted and rejected attempts
+  Index iterations = 0;  ///< of accepted and rejected attempts
   Index rejected_steps = 0;
   WorkCounts work{};
   Timings timings{};

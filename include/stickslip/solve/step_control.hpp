@@ -14,21 +14,23 @@ namespace stickslip {
 struct MarchOptions {
   Real end = 1;
   Index steps = 0;              ///< number of equal steps; 0: choose the size automatically
-  Real initial = 0;             ///< first automatic step; 0: end / 100
+  Real initial = 0;             ///< first automatic step; 0: a hundredth of the way to the end
   Real largest = 0;             ///< largest automatic step; 0: no limit
-  Real smallest = 0;            ///< below it a step is given up; 0: 1e-9 of the end
+  Real smallest = 0;            ///< below it a step is given up; 0: 1e-9 of the way
   Index wanted_iterations = 4;  ///< automatic steps grow below this count and shrink above
   Real tolerance = 1e-5;        ///< of Newton's method, see NewtonOptions
   Index max_iterations = 20;    ///< of Newton's method
   bool line_search = true;
-  std::vector<Real> stops{};    ///< times that a step must end at
+  std::vector<Real> stops{};  ///< times that a step must end at
 
   void validate(Real now) const {
-    if (!(end > now) || !std::isfinite(end)) throw std::invalid_argument("march: the end must lie after the present time");
+    if (!(end > now) || !std::isfinite(end))
+      throw std::invalid_argument("march: the end must lie after the present time");
     if (steps < 0) throw std::invalid_argument("march: the number of steps must not be negative");
     if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument("march: the tolerance must lie between 0 and 1");
     if (max_iterations < 1) throw std::invalid_argument("march: needs at least one iteration");
-    if (initial < 0 || largest < 0 || smallest < 0) throw std::invalid_argument("march: step sizes must not be negative");
+    if (initial < 0 || largest < 0 || smallest < 0)
+      throw std::invalid_argument("march: step sizes must not be negative");
   }
 };
 
@@ -39,7 +41,7 @@ class StepControl {
   StepControl(const MarchOptions& options, Real begin) : options_(options), begin_(begin), time_(begin) {
     const Real span = options.end - begin;
     size_ = options.steps > 0 ? span / options.steps : options.initial > 0 ? options.initial : span / 100;
-    if (options_.largest > 0) size_ = std::min(size_, options_.largest);
+    if (options_.steps == 0 && options_.largest > 0) size_ = std::min(size_, options_.largest);
     smallest_ = options.smallest > 0 ? options.smallest : 1e-9 * span;
     std::sort(options_.stops.begin(), options_.stops.end());
   }
@@ -74,21 +76,27 @@ class StepControl {
       }
       return;
     }
-    const Real factor = std::clamp(std::sqrt(Real(options_.wanted_iterations) / std::max<Index>(iterations, 1)), 0.5, 1.5);
+    Real factor = std::clamp(std::sqrt(Real(options_.wanted_iterations) / std::max<Index>(iterations, 1)), 0.5, 1.5);
+    // Where a smaller step did not take fewer iterations, still smaller ones are no use.
+    if (factor >= 1) last_shrunk_ = 0;
+    if (factor < 1 && last_shrunk_ > 0 && iterations >= last_shrunk_) factor = 1;
+    if (factor < 1) last_shrunk_ = iterations;
     // A step shortened to meet a stop says nothing against the size, unless it was hard even so.
     size_ = factor < 1 ? std::min(size_, taken) * factor : std::max(size_, taken * factor);
-    if (taken >= 0.999 * size_ && factor > 1) size_ = taken * factor;
     if (options_.largest > 0) size_ = std::min(size_, options_.largest);
   }
 
   void reject(Real time) { size_ = 0.4 * (time - time_); }
 
  private:
-  Real grid(Index k) const { return k >= options_.steps ? options_.end : begin_ + (options_.end - begin_) * k / options_.steps; }
+  Real grid(Index k) const {
+    return k >= options_.steps ? options_.end : begin_ + (options_.end - begin_) * k / options_.steps;
+  }
 
   MarchOptions options_;
   Real begin_, time_, size_ = 0, smallest_ = 0;
   Index done_ = 0;
+  Index last_shrunk_ = 0;  // iterations of the step after which the size was last lowered for their sake; 0: it was not
 };
 
 }  // namespace stickslip

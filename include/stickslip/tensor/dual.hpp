@@ -84,5 +84,13 @@ struct Eigen::NumTraits<stickslip::Dual<n>> : Eigen::NumTraits<double> {
   using Real = stickslip::Dual<n>;
   using NonInteger = stickslip::Dual<n>;
   using Nested = stickslip::Dual<n>;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = n, AddCost = n, MulCost = 2 * n };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = n,
+    AddCost = n,
+    MulCost = 2 * n
+  };
 };

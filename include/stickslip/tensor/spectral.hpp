@@ -7,7 +7,8 @@
 
 namespace stickslip {
 
-/// Principal values and directions of a symmetric tensor: t = sum_A values[A] n_A n_A^T, n_A = column A of `directions`.
+/// Principal values and directions of a symmetric tensor: t = sum_A values[A] n_A n_A^T, n_A = column A of
+/// `directions`.
 template <class S, class Shape>
 struct Spectral {
   Vec<S, 3> values;
@@ -59,8 +60,9 @@ S log_difference(const S& a, const S& b) {
   using std::log1p;
   const S x = (a - b) / b;
   const Real size = std::abs(value_of(x));
-  const S ratio = size < 1e-3 ? S(S(1) + x * (S(-1. / 2) + x * (S(1. / 3) + x * (S(-1. / 4) + x * (S(1. / 5) - x * S(1. / 6))))))
-                              : S(log1p(x) / x);
+  const S ratio =
+      size < 1e-3 ? S(S(1) + x * (S(-1. / 2) + x * (S(1. / 3) + x * (S(-1. / 4) + x * (S(1. / 5) - x * S(1. / 6))))))
+                  : S(log1p(x) / x);
   return ratio / b;
 }
 

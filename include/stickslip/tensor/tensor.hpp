@@ -36,10 +36,10 @@ struct Tensor {
   const S& operator()(int i, int j) const { return v[Shape::at(i, j)]; }
 };
 
-/// Symmetric second-order tensor, stored once: the memory of materials.
+/// Symmetric second-order tensor, stored once: the memory of materials, so without the padding of an alignment.
 template <class S, class Shape>
 struct SymmetricTensor {
-  using Components = Vec<S, Shape::symmetric_size>;
+  using Components = Eigen::Matrix<S, Shape::symmetric_size, 1, Eigen::DontAlign>;
   Components v = Components::Zero();
 
   static SymmetricTensor identity() {

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/assembly/body.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace stickslip {
+
+/// Mass, velocity and acceleration of a body, and the weights of its time scheme (theory.md, section 7). Exists only in
+/// bundles with inertia.
+template <class Model>
+class InertiaForces {
+ public:
+  using BodyType = Body<Model>;
+  using Matrix = typename BodyType::Matrix;
+  static constexpr int dim = BodyType::dim;
+  static constexpr int nodes = Model::Element::nodes;
+
+  InertiaForces(const BodyType& body, const typename Model::Inertia& policy) : body_(body), policy_(policy) {
+    const auto rule = Model::Element::Cell::quadrature();
+    mass_.reserve(body.mesh().cells.size());
+    for (Index e = 0; e < body.mesh().cell_count(); ++e) {
+      Mat<Real, nodes> m = Mat<Real, nodes>::Zero();
+      for (std::size_t p = 0; p < rule.size(); ++p) {
+        const Vec<Real, nodes> N = Model::Element::Cell::shape(rule[p].xi);
+        m += policy.density * body.geometry(e)[p].weight * N * N.transpose();
+      }
+      if (policy.lumped) m = Mat<Real, nodes>(Vec<Real, nodes>(m.rowwise().sum()).asDiagonal());
+      mass_.push_back(m);
+    }
+    const Index components = body.mesh().node_count() * dim;
+    for (Field* f : {&velocity_, &acceleration_, &start_, &old_forces_, &force_, &trial_acceleration_, &work_})
+      f->setZero(components);
+  }
+
+  /// Makes the mass matrix in the pattern of the system's.
+  void connect(const Matrix& matrix) {
+    matrix_ = matrix;
+    matrix_.set_zero();
+    Mat<Real, nodes * dim> block;
+    for (Index e = 0; e < body_.mesh().cell_count(); ++e) {
+      block.setZero();
+      for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < nodes; ++b)
+          for (int i = 0; i < dim; ++i) block(a * dim + i, b * dim + i) = mass_[static_cast<std::size_t>(e)](a, b);
+      matrix_.add(body_.slots(e), block);
+    }
+  }
+
+  /// The step of size dt that starts from the converged displacements u.
+  void begin(const Field& u, Real dt) {
+    start_ = u;
+    dt_ = dt;
+  }
+
+  /// Displacements after dt at the acceleration of the start: the guess of the step.
+  void predict(Field& u) const { u = start_ + dt_ * velocity_ + 0.5 * dt_ * dt_ * acceleration_; }
+
+  /// Turns forces at the end of the step into the balance of the scheme: `forces` (internal + contact - external, by
+  /// component) and `matrix` (their derivative) become the generalised-alpha residual and tangent (eq. 7.3, 7.5).
+  void apply(const Field& u, const Field& forces, Field& balance, Matrix& matrix) {
+    const TimeScheme& s = policy_.scheme;
+    force_ = forces;
+    trial_acceleration_ = (u - start_ - dt_ * velocity_) / (s.beta * dt_ * dt_) - (0.5 / s.beta - 1) * acceleration_;
+    work_ = (1 - s.alpha_m) * trial_acceleration_ + s.alpha_m * acceleration_;
+    balance = (1 - s.alpha_f) * forces + s.alpha_f * old_forces_;
+    add_product(work_, balance);
+    matrix.combine(1 - s.alpha_f, matrix_, (1 - s.alpha_m) / (s.beta * dt_ * dt_));
+  }
+
+  /// Makes the state of the last `apply` the converged one.
+  void commit() {
+    const TimeScheme& s = policy_.scheme;
+    velocity_ += dt_ * ((1 - s.gamma) * acceleration_ + s.gamma * trial_acceleration_);
+    acceleration_.swap(trial_acceleration_);
+    old_forces_.swap(force_);
+  }
+
+  /// Consistent start: accelerations that balance `forces` at the lumped mass; constrained components start with none.
+  void start(const Dofs& dofs, const Field& forces) {
+    old_forces_ = forces;
+    work_.setOnes();
+    Field lumped = Field::Zero(work_.size());
+    add_product(work_, lumped);
+    for (Index c = 0; c < dofs.components(); ++c)
+      acceleration_[c] = dofs.equation(c) == Dofs::constrained ? 0 : -forces[c] / lumped[c];
+  }
+
+  /// target += M field.
+  void add_product(const Field& field, Field& target) const {
+    for (Index e = 0; e < body_.mesh().cell_count(); ++e) {
+      const auto& cell = body_.mesh().cells[static_cast<std::size_t>(e)];
+      const Mat<Real, nodes>& m = mass_[static_cast<std::size_t>(e)];
+      for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < nodes; ++b)
+          target.template segment<dim>(cell[static_cast<std::size_t>(a)] * dim) +=
+              m(a, b) * field.template segment<dim>(cell[static_cast<std::size_t>(b)] * dim);
+    }
+  }
+
+  /// Local error of the last converged step by component: (beta - 1/6) dt^2 (a_{n+1} - a_n) (eq. 7.8), its largest norm
+  /// over the nodes [length]. Call it after `apply`, before `commit`.
+  Real local_error() const {
+    Real largest = 0;
+    for (Index n = 0; n < body_.mesh().node_count(); ++n)
+      largest = std::max(largest, (trial_acceleration_ - acceleration_).template segment<dim>(n * dim).norm());
+    return std::abs(policy_.scheme.beta - Real(1) / 6) * dt_ * dt_ * largest;
+  }
+
+  Real kinetic_energy() const {
+    Field momentum = Field::Zero(velocity_.size());
+    add_product(velocity_, momentum);
+    return 0.5 * velocity_.dot(momentum);
+  }
+  const Field& velocity() const { return velocity_; }
+  Field& velocity() { return velocity_; }
+  const Field& acceleration() const { return acceleration_; }
+
+ private:
+  const BodyType& body_;
+  typename Model::Inertia policy_;
+  std::vector<Mat<Real, nodes>> mass_;  // of an element, between nodes: the same for every component
+  Matrix matrix_;
+  Field velocity_, acceleration_, start_, old_forces_, force_, trial_acceleration_, work_;
+  Real dt_ = 0;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/policy/inertia.hpp>
+
+#include <stdexcept>
+
+namespace stickslip {
+
+/// Chung & Hulbert's scheme (1993) with the spectral radius at infinite frequency as its parameter: 1 dissipates
+/// nothing, 0 annihilates the highest frequencies in a step. Second order.
+inline TimeScheme chung_hulbert(Real spectral_radius) {
+  if (!(spectral_radius >= 0 && spectral_radius <= 1))
+    throw std::invalid_argument("generalised-alpha: the spectral radius must lie between 0 and 1");
+  const Real alpha_m = (2 * spectral_radius - 1) / (spectral_radius + 1),
+             alpha_f = spectral_radius / (spectral_radius + 1);
+  const Real sum = 1 - alpha_m + alpha_f;
+  return {alpha_m, alpha_f, 0.25 * sum * sum, 0.5 - alpha_m + alpha_f};
+}
+
+/// Newmark's scheme; the defaults are the trapezoidal rule.
+inline TimeScheme newmark(Real beta = 0.25, Real gamma = 0.5) {
+  if (!(beta > 0 && gamma >= 0.5)) throw std::invalid_argument("Newmark: beta must be positive and gamma at least 1/2");
+  return {0, 0, beta, gamma};
+}
+
+/// Hilber, Hughes & Taylor's scheme; alpha from 0 (trapezoidal rule) to 1/3.
+inline TimeScheme hht(Real alpha) {
+  if (!(alpha >= 0 && alpha <= Real(1) / 3)) throw std::invalid_argument("HHT: alpha must lie between 0 and 1/3");
+  return {0, alpha, 0.25 * (1 + alpha) * (1 + alpha), 0.5 + alpha};
+}
+
+/// Implicit dynamics by the generalised-alpha method. The mass matrix is consistent unless `lumped` asks for row sums.
+struct GeneralizedAlpha {
+  using Role = role::Inertia;
+  static constexpr bool active = true;
+
+  Real density = 0;                        ///< mass per reference volume
+  TimeScheme scheme = chung_hulbert(0.5);  ///< or newmark(), hht(alpha)
+  bool lumped = false;
+
+  void validate() const {
+    if (!(density > 0)) throw std::invalid_argument("inertia: the density must be positive");
+    if (!(scheme.beta > 0)) throw std::invalid_argument("inertia: the scheme's beta must be positive");
+  }
+};
+
+}  // namespace stickslip

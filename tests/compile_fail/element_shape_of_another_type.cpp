@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "bundle.hpp"
+
+struct Cell : Quad4 {
+#ifndef CONTROL
+  static Vec<Real, 3> shape(const Vec<Real, 2>&);
+#endif
+};
+struct Quad : FullyIntegrated<Quad4> {
+  using Role = role::Element;
+  using Cell = ::Cell;
+};
+struct Bundle : Sound {
+  using Element = Quad;
+};
+
+static_assert(CheckModel<Bundle>::ok);

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "bundle.hpp"
+
+struct Sticky {
+  using Role = role::Friction;
+  using Law = Sticky;
+  using Pressure = CurrentPressure;
+  static constexpr bool active = true, depends_on_pressure = true;
+#ifdef CONTROL
+  static constexpr bool depends_on_slip = false;
+#endif
+  FrictionBound<Real> bound(const FrictionPoint<Real>&) const;
+};
+struct Bundle : Sound {
+  using Friction = Sticky;
+};
+
+static_assert(CheckModel<Bundle>::ok);

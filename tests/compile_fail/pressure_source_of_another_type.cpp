@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "bundle.hpp"
+
+struct Smoothed {
+  using Role = role::PressureSource;
+  static constexpr bool follows_current = false;
+  template <class S>
+  struct Memory {};
+#ifdef CONTROL
+  static Real pressure(const Real&, const Memory<Real>&);
+#else
+  static float pressure(const Real&, const Memory<Real>&);
+#endif
+  static Memory<Real> advance(const Real&, const Memory<Real>&, Real);
+};
+struct Bundle : Sound {
+  using Friction = WithPressure<Coulomb, Smoothed>;
+};
+
+static_assert(CheckModel<Bundle>::ok);

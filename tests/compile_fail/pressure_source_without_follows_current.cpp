@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "bundle.hpp"
+
+struct Smoothed {
+  using Role = role::PressureSource;
+#ifdef CONTROL
+  static constexpr bool follows_current = false;
+#endif
+  template <class S>
+  struct Memory {};
+  static Real pressure(const Real&, const Memory<Real>&);
+  static Memory<Real> advance(const Real&, const Memory<Real>&, Real);
+};
+struct Bundle : Sound {
+  using Friction = WithPressure<Coulomb, Smoothed>;
+};
+
+static_assert(CheckModel<Bundle>::ok);

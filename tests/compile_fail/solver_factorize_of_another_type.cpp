@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "bundle.hpp"
+
+struct Frontal {
+  using Role = role::LinearSolver;
+  static constexpr Symmetry accepts = Symmetry::general;
+  static constexpr Symmetry storage = Symmetry::general;
+  void analyze(const SparseView&);
+#ifdef CONTROL
+  Factorization factorize(const SparseView&);
+#else
+  bool factorize(const SparseView&);
+#endif
+  bool solve(const Real*, Real*);
+};
+struct Bundle : Sound {
+  using LinearSolver = Frontal;
+};
+
+static_assert(CheckModel<Bundle>::ok);

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "bundle.hpp"
+
+struct Frontal {
+  using Role = role::LinearSolver;
+#ifdef CONTROL
+  static constexpr Symmetry accepts = Symmetry::general;
+#endif
+  static constexpr Symmetry storage = Symmetry::general;
+  void analyze(const SparseView&);
+  Factorization factorize(const SparseView&);
+  bool solve(const Real*, Real*);
+};
+struct Bundle : Sound {
+  using LinearSolver = Frontal;
+};
+
+static_assert(CheckModel<Bundle>::ok);

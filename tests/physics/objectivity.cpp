@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scene.hpp"
+
+#include <stickslip/element/fully_integrated.hpp>
+#include <stickslip/linear_solver/eigen_ldlt.hpp>
+#include <stickslip/verify/element.hpp>
+#include <stickslip/verify/material.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using namespace scene;
+
+TEST_CASE_TEMPLATE("materials: P(Q F) = Q P(F)", M, Hencky, FiniteJ2<LinearHardening>, FiniteJ2<PowerHardening>) {
+  Tensor<Real, Planar> F, G;
+  F.v << 1.1, 0.2, -0.1, 0.95, 1.02;
+  G.v << 1.5, 0.3, 0.2, 0.8, 0.9;
+  for (const Real angle : {1e-3, 0.7, pi / 2, 2.9, -1.3}) {
+    CHECK(verify::material_objectivity<Planar>(material<M>(), {F}, angle) < 1e-11);
+    CHECK(verify::material_objectivity<Planar>(material<M>(), {F, G}, angle) < 1e-11);
+  }
+}
+
+template <class E>
+void check_element() {
+  Mat<Real, 4, 2> X;
+  X << 1.0, 0.1, 2.3, -0.2, 2.0, 1.4, 0.8, 0.9;
+  Vec<Real, 8> u;
+  u << 0.05, -0.02, 0.35, 0.10, 0.20, -0.25, -0.10, 0.15;
+  const verify::LoneElement<E, PlaneStrain, FiniteJ2<PowerHardening>> element{
+      .material = material<FiniteJ2<PowerHardening>>(), .X = X};
+  for (const Real angle : {0.7, pi / 2, 2.9})
+    CHECK(verify::element_objectivity(element, {Vec<Real, 8>(0.3 * u), u}, angle) < 1e-11);
+}
+TEST_CASE("elements: a superposed rotation turns the nodal forces") {
+  check_element<MeanDilatation<Quad4>>();
+  check_element<FullyIntegrated<Quad4>>();
+}
+
+TEST_CASE("contact: body and tool that turn together feel nothing of it") {
+  using M = Model<EigenLdlt, QuasiCoulomb, FiniteJ2<LinearHardening>>;
+  const Real turn = 2.3;
+  const V centre(3, -1);
+  const auto pose = [&](Real t) { return t <= 1 ? rigid::turned(0, centre) : rigid::turned(turn, centre); };
+  Body<M> body(mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}), {}, material<FiniteJ2<LinearHardening>>());
+  std::vector<ContactPair<M>> pairs;
+  pairs.emplace_back(Contact<M>{.side = "bottom",
+                                .tool = rigid::disc({1, -3}, 3),
+                                .motion = pose,
+                                .friction = {.mu = 0.3},
+                                .enforcement = {.normal = 1e4, .tangential = 1e3}},
+                     body.mesh(), body.kinematics());
+  typename System<M>::Inertia inertia{};
+  System<M> system(body, pairs, inertia, {}, {});
+  Field u = Field::Zero(system.dofs().components());
+  CHECK_FALSE(bool(pairs[0].start(body.mesh(), u, 0)));
+  // Into the tool, then along it: some nodes slide, some stick.
+  for (Index n = 0; n < body.mesh().node_count(); ++n) u[2 * n + 1] = -0.05;
+  CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
+  system.commit();
+  for (Index n = 0; n < body.mesh().node_count(); ++n) u[2 * n] += 0.004;
+  CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
+  system.commit();
+  const auto before = pairs[0].states();
+  const Field forces = system.residual();
+  CHECK(system.contact_summary().touching >= 3);
+  Field turned = u;
+  const auto turning = pose(2);
+  for (Index n = 0; n < body.mesh().node_count(); ++n) {
+    const V X = body.mesh().nodes[std::size_t(n)];
+    turned.segment<2>(2 * n) = turning.rotation * (X + u.segment<2>(2 * n)) + turning.translation - X;
+  }
+  CHECK_FALSE(bool(system.evaluate(turned, 2, 1)));
+  CHECK(system.contact_summary().dissipated < 1e-12);
+  system.commit();
+  const auto& after = pairs[0].states();
+  Real friction = 0;
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    CHECK(after[k].touching == before[k].touching);
+    CHECK((after[k].force - turning.rotation * before[k].force).norm() < 1e-9);
+    CHECK(std::abs(after[k].slip - before[k].slip) < 1e-12);
+    friction = std::max(friction, std::abs(before[k].force[0]));
+  }
+  CHECK(friction > 1);  // there was friction to be kept
+  Field expected = forces;
+  for (Index n = 0; n < body.mesh().node_count(); ++n)
+    expected.segment<2>(2 * n) = turning.rotation * forces.segment<2>(2 * n);
+  CHECK((system.residual() - expected).norm() < 1e-10 * expected.norm());
+}
+
+}  // namespace

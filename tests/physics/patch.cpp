@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scene.hpp"
+
+#include <stickslip/element/fully_integrated.hpp>
+#include <stickslip/linear_solver/eigen_ldlt.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using namespace scene;
+
+// A homogeneous field u = H X imposed on the boundary of a distorted mesh: it must hold inside, with constant P.
+template <class M>
+void check_body(const Mat<Real, 2>& H, Index steps) {
+  auto mesh = distorted(mesh::rectangle({.cells = {4, 3}}));
+  for (auto& x : mesh.nodes) x += V(0.5, 0);
+  // A side for every node of the boundary.
+  std::map<Index, std::string> boundary;
+  for (const char* name : {"left", "right", "bottom", "top"})
+    for (const Index n : mesh.sides[name].nodes) boundary[n] = "node " + std::to_string(n);
+  for (const auto& [n, name] : boundary) mesh.sides[name].nodes = {n};
+  Problem<M> p({.body = mesh, .material = material<typename M::Material>()});
+  for (const auto& [n, name] : boundary) {
+    const V u = H * mesh.nodes[std::size_t(n)];
+    for (int i = 0; i < 2; ++i) p.drive(name, i, [v = u[i]](Real t) { return t * v; });
+  }
+  auto march = p.march({.end = 1, .steps = steps, .tolerance = 1e-13});
+  CHECK(bool(march.finish()));
+  Real worst = 0;
+  Index inside = 0;
+  for (Index n = 0; n < mesh.node_count(); ++n) {
+    worst = std::max(worst, (p.displacement(n) - H * mesh.nodes[std::size_t(n)]).norm());
+    inside += boundary.count(n) ? 0 : 1;
+  }
+  CHECK(inside == 6);
+  CHECK(worst < 1e-10);
+  Vec<Real, 5> first = Vec<Real, 5>::Zero();
+  Real spread = 0, scale = 0;
+  p.body().visit_points(p.displacement(), [&](Index e, int q, const auto& F, const auto& state, Real) {
+    const Vec<Real, 5> P = p.body().material().respond(F, state, 0).P.v;
+    if (e == 0 && q == 0) first = P;
+    spread = std::max(spread, (P - first).norm());
+    scale = std::max(scale, P.norm());
+  });
+  CHECK(scale > 1);
+  CHECK(spread < 1e-10 * scale);
+  if constexpr (!std::is_same_v<typename M::Material, Hencky>) CHECK(p.max_plastic_strain() > 0.01);
+}
+
+Mat<Real, 2> plane() {
+  Mat<Real, 2> H;
+  H << 0.15, 0.1, -0.05, -0.1;
+  return H;
+}
+Mat<Real, 2> turned() {  // u_r = a r, u_z = b z is homogeneous about an axis
+  Mat<Real, 2> H;
+  H << 0.12, 0, 0, -0.15;
+  return H;
+}
+using Plain = FullyIntegrated<Quad4>;
+using Mean = MeanDilatation<Quad4>;
+
+TEST_CASE("patch test of the body, Hencky") {
+  check_body<Lone<EigenLdlt, Hencky, PlaneStrain, Mean>>(plane(), 4);
+  check_body<Lone<EigenLdlt, Hencky, PlaneStrain, Plain>>(plane(), 4);
+  check_body<Lone<EigenLdlt, Hencky, Axisymmetric, Mean>>(turned(), 4);
+  check_body<Lone<EigenLdlt, Hencky, Axisymmetric, Plain>>(turned(), 4);
+}
+TEST_CASE("patch test of the body, plastic") {
+  check_body<Lone<EigenLdlt, FiniteJ2<PowerHardening>, PlaneStrain, Mean>>(plane(), 8);
+  check_body<Lone<EigenLdlt, FiniteJ2<PowerHardening>, Axisymmetric, Mean>>(turned(), 8);
+}
+
+// A block with nodes at uneven distances, pressed by a flat tool: spread of the nodal pressures.
+template <class M>
+Real pressure_spread(PenaltyPer per) {
+  auto mesh = distorted(mesh::rectangle({.cells = {5, 4}}));
+  for (auto& x : mesh.nodes) x += V(0.5, 0);
+  Problem<M> p({.body = mesh,
+                .material = material<Hencky>(),
+                .contacts = {{.side = "top",
+                              .tool = rigid::line({0, 1}, {-1, 0}),
+                              .motion = [](Real t) { return V(0, -0.02 * t); },
+                              .enforcement = {.normal = 1e6, .tangential = 0, .per = per}}}});
+  p.hold("bottom", 1);
+  if constexpr (!M::Kinematics::hoop) p.hold("left", 0);
+  auto march = p.march({.end = 1, .steps = 2, .tolerance = 1e-11});
+  CHECK(bool(march.finish()));
+  const auto& pair = p.contacts()[0];
+  Real low = 1e300, high = -1e300;
+  for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
+    CHECK(pair.states()[k].touching);
+    Real share = 0;
+    for (const auto& facet : mesh.side("top").facets)
+      share += facet_share(mesh, p.body().kinematics(), facet, pair.nodes()[k]);
+    const Real pressure = pair.states()[k].force[1] / share;
+    low = std::min(low, pressure);
+    high = std::max(high, pressure);
+  }
+  CHECK(low > 100);
+  // Force on the tool, supports and pressure balance.
+  CHECK(p.reaction("bottom", 1) == doctest::Approx(p.contact_force("top")[1]).epsilon(1e-10));
+  return (high - low) / high;
+}
+TEST_CASE("contact patch test: a stiffness per area gives a uniform pressure, one per node does not") {
+  CHECK(pressure_spread<Model<EigenLdlt>>(PenaltyPer::area) < 1e-9);
+  CHECK(pressure_spread<Model<EigenLdlt, Frictionless, Hencky, Axisymmetric>>(PenaltyPer::area) < 1e-9);
+  CHECK(pressure_spread<Model<EigenLdlt>>(PenaltyPer::node) > 1e-2);
+}
+
+TEST_CASE("what a unit of stiffness stands for") {
+  // A node in the middle of a side, alone against the edge of a narrow tool: force = stiffness x measure x penetration.
+  const auto force = [](auto tag, PenaltyPer per, Real thickness) {
+    using M = decltype(tag);
+    typename Problem<M>::Parameters parameters{
+        .body = mesh::rectangle({.origin = {1, 0}, .size = {2, 1}, .cells = {2, 1}}),
+        .material = material<Hencky>(),
+        .contacts = {{.side = "top",
+                      .tool = rigid::path({2.1, 1}, {-1, 0}).straight(0.2),
+                      .motion = [](Real t) { return V(0, -1e-3 * t); },
+                      .enforcement = {.normal = 10, .per = per}}}};
+    if constexpr (!M::Kinematics::hoop) parameters.kinematics.thickness = thickness;
+    Problem<M> p(parameters);
+    p.hold("bottom", 0).hold("bottom", 1).hold("top", 0).hold("top", 1);
+    auto march = p.march({.end = 1, .steps = 1});
+    CHECK(bool(march.finish()));
+    return p.contact_force("top")[1] / (10 * 1e-3);
+  };
+  using Plane = Model<EigenLdlt>;
+  using Turned = Model<EigenLdlt, Frictionless, Hencky, Axisymmetric>;
+  CHECK(force(Plane{}, PenaltyPer::node, 3) == doctest::Approx(1).epsilon(1e-10));
+  CHECK(force(Plane{}, PenaltyPer::unit_depth, 3) == doctest::Approx(3).epsilon(1e-10));
+  CHECK(force(Plane{}, PenaltyPer::area, 3) == doctest::Approx(3 * 1).epsilon(1e-10));
+  CHECK(force(Turned{}, PenaltyPer::node, 1) == doctest::Approx(1).epsilon(1e-10));
+  CHECK(force(Turned{}, PenaltyPer::unit_depth, 1) == doctest::Approx(2 * pi).epsilon(1e-10));
+  CHECK(force(Turned{}, PenaltyPer::area, 1) == doctest::Approx(2 * pi * 2).epsilon(1e-10));
+}
+
+}  // namespace

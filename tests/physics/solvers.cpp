@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "solvers.hpp"
+
+#include <doctest/doctest.h>
+#include <Eigen/LU>
+
+namespace solvers {
+
+namespace {
+// Lower triangle of a matrix given by its entries.
+template <class Entry>
+Matrix lower(Index n, Entry&& entry) {
+  Matrix m{{0}, {}, {}, Symmetry::symmetric};
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = j; i < n; ++i)
+      if (const Real v = entry(i, j); v != 0) {
+        m.row.push_back(i);
+        m.values.push_back(v);
+      }
+    m.start.push_back(Index(m.row.size()));
+  }
+  return m;
+}
+constexpr Index n = 40;
+Real stiffness(Index i, Index j) {
+  return i == j ? 4.1 + 0.1 * (i % 3) : i - j == 1 || i - j == 7 ? -1.0 : 0.0;
+}
+Eigen::MatrixXd dense(const Matrix& m) {
+  const SparseView v = m.view();
+  Eigen::MatrixXd d = Eigen::MatrixXd::Zero(v.size, v.size);
+  for (Index j = 0; j < v.size; ++j)
+    for (Index k = v.column_start[j]; k < v.column_start[j + 1]; ++k) d(v.row[k], j) = d(j, v.row[k]) = v.values[k];
+  return d;
+}
+}  // namespace
+
+const Matrix positive = lower(n, stiffness);
+// Shifted so that a good part of the eigenvalues is negative.
+const Matrix indefinite = lower(n, [](Index i, Index j) { return stiffness(i, j) - (i == j ? 3.3 : 0.0); });
+// Pairs of equal rows, exact in any order of elimination.
+const Matrix singular =
+    lower(n, [](Index i, Index j) { return i == j || (i - j == 1 && j % 2 == 0 && j < 20) ? 1.0 : 0.0; });
+
+Matrix both_triangles(const Matrix& m) {
+  const Eigen::MatrixXd d = dense(m);
+  Matrix full{{0}, {}, {}, Symmetry::general};
+  for (Index j = 0; j < d.cols(); ++j) {
+    for (Index i = 0; i < d.rows(); ++i)
+      if (d(i, j) != 0) {
+        full.row.push_back(i);
+        full.values.push_back(d(i, j));
+      }
+    full.start.push_back(Index(full.row.size()));
+  }
+  return full;
+}
+
+namespace {
+
+const std::map<std::string, Outcome>& outcomes() {
+  static const std::map<std::string, Outcome> all{
+      {"EigenLdlt", eigen_ldlt()},           {"EigenLu", eigen_lu()},  {"Cholmod", cholmod()}, {"Umfpack", umfpack()},
+      {"BandedCholesky", banded_cholesky()}, {"BandedLu", banded_lu()}};
+  return all;
+}
+bool symmetric(const std::string& name) {
+  return name == "EigenLdlt" || name == "Cholmod" || name == "BandedCholesky";
+}
+
+Real difference(const std::vector<Real>& a, const std::vector<Real>& b) {
+  if (a.size() != b.size() || a.empty()) return 1e300;
+  const Eigen::Map<const Eigen::VectorXd> x(a.data(), Index(a.size())), y(b.data(), Index(b.size()));
+  return (x - y).norm() / y.norm();
+}
+void check_solution(const Answer& a, const Matrix& m) {
+  CHECK(a.solved);
+  Eigen::VectorXd b(n);
+  for (Index i = 0; i < n; ++i) b[i] = std::sin(1.0 + i);
+  const Eigen::VectorXd exact = dense(m).fullPivLu().solve(b);
+  CHECK(difference(a.x, {exact.begin(), exact.end()}) < 1e-9);
+}
+
+TEST_CASE("all solvers agree on a run of press and drag") {
+  const auto& reference = outcomes().at("EigenLu");
+  for (const auto& entry : outcomes()) {
+    const std::string& name = entry.first;
+    const Outcome& o = entry.second;
+    CAPTURE(name);
+    CHECK(difference(o.quasi, reference.quasi) < 1e-9);
+    if (!symmetric(name)) CHECK(difference(o.coulomb, reference.coulomb) < 1e-9);
+  }
+  CHECK(difference(reference.quasi, reference.coulomb) > 1e-4);  // two laws
+}
+TEST_CASE("positive, indefinite and singular matrices") {
+  for (const auto& entry : outcomes()) {
+    const std::string& name = entry.first;
+    const Outcome& o = entry.second;
+    CAPTURE(name);
+    CHECK(o.positive.factorization == Factorization::done);
+    check_solution(o.positive, positive);
+    CHECK(o.indefinite.factorization == (symmetric(name) ? Factorization::indefinite : Factorization::done));
+    check_solution(o.indefinite, indefinite);
+    CHECK(o.singular.factorization == Factorization::failed);
+  }
+}
+
+}  // namespace
+}  // namespace solvers

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "element_check.hpp"
+
+#include <stickslip/material/hencky.hpp>
+
+namespace {
+
+using namespace element_check;
+const Hencky material{.young = 200e3, .poisson = 0.3};
+
+TEST_CASE("tangent of elements of Hencky's law") {
+  check_all(material, {{displacement(1)}, {displacement(1.3)}, {displacement(-0.4)}});
+}
+
+template <class Element, class Kinematics>
+void check_energy() {
+  // The forces are the gradient of the sum of W(F_bar) over the points: the element has a potential.
+  const verify::LoneElement<Element, Kinematics, Hencky> element{.material = material, .X = distorted()};
+  const U u = displacement(1);
+  const Vec<Dual<8>, 8> dual_u = verify::seeded<8>(u);
+  const auto F =
+      Element::template deformation<Kinematics, Dual<8>, Dual<8>>(element.template geometry_in<Dual<8>>(), dual_u);
+  Dual<8> energy(0);
+  const auto geometry = element.template geometry_in<Real>();
+  for (std::size_t p = 0; p < 4; ++p) energy += material.energy(F[p], {}) * geometry[p].weight;
+  const U slope = energy.slope.matrix();
+  CHECK(verify::relative_error(element.template at<Real>(u, {}).residual, slope) < 1e-12);
+}
+TEST_CASE("element forces derive from the stored energy") {
+  check_energy<MeanDilatation<Quad4>, PlaneStrain>();
+  check_energy<MeanDilatation<Quad4>, Axisymmetric>();
+  check_energy<FullyIntegrated<Quad4>, PlaneStrain>();
+  check_energy<FullyIntegrated<Quad4>, Axisymmetric>();
+}
+
+TEST_CASE("one dilatation in the whole element of mean dilatation, several in the plain one") {
+  const auto spread = [](auto tag) {
+    using Element = decltype(tag);
+    const verify::LoneElement<Element, PlaneStrain, Hencky> element{.material = material, .X = distorted()};
+    const auto F =
+        Element::template deformation<PlaneStrain, Real, Real>(element.template geometry_in<Real>(), displacement(1));
+    Real low = 1e300, high = -1e300;
+    for (const auto& f : F) {
+      low = std::min(low, determinant(f));
+      high = std::max(high, determinant(f));
+    }
+    return high - low;
+  };
+  CHECK(spread(MeanDilatation<Quad4>{}) < 1e-14);
+  CHECK(spread(FullyIntegrated<Quad4>{}) > 0.1);
+}
+
+TEST_CASE("an element that turns inside out says so") {
+  const verify::LoneElement<MeanDilatation<Quad4>, PlaneStrain, Hencky> mean{.material = material, .X = distorted()};
+  const verify::LoneElement<FullyIntegrated<Quad4>, PlaneStrain, Hencky> plain{.material = material, .X = distorted()};
+  U u = U::Zero();
+  u[4] = -3;
+  CHECK(std::isnan(mean.at<Real>(u, {}).residual[0]));
+  CHECK(std::isnan(plain.at<Real>(u, {}).residual[0]));
+}
+
+// A material whose tangent has no symmetry: the elements must not mirror it.
+struct Skewed : Hencky {
+  static constexpr Symmetry symmetry = Symmetry::general;
+  template <class S, class Shape>
+  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>& old,
+                                                      Real dt) const {
+    auto out = Hencky::respond(F, old, dt);
+    // A follower-like stress that derives from no energy: P_11 += c F_22^2.
+    out.P(0, 0) += S(young * 0.1) * F(1, 1) * F(1, 1);
+    out.dP_dF(0, 3) += S(young * 0.2) * F(1, 1);
+    return out;
+  }
+};
+TEST_CASE("elements carry a non-symmetric material's tangent") {
+  const auto check_general = [](auto element) {
+    const auto r = verify::element_tangent(element, {displacement(1)}, 1, 2e-5);
+    CHECK(r.by_duals < 1e-11);
+    CHECK(r.by_differences < 1e-8);
+    CHECK(r.asymmetry > 1e-3);
+  };
+  check_general(
+      verify::LoneElement<MeanDilatation<Quad4>, PlaneStrain, Skewed>{.material = {{material}}, .X = distorted()});
+  check_general(
+      verify::LoneElement<MeanDilatation<Quad4>, Axisymmetric, Skewed>{.material = {{material}}, .X = distorted()});
+  check_general(
+      verify::LoneElement<FullyIntegrated<Quad4>, Axisymmetric, Skewed>{.material = {{material}}, .X = distorted()});
+}
+
+}  // namespace

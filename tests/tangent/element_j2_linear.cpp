@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "element_check.hpp"
+
+#include <stickslip/material/finite_j2.hpp>
+#include <stickslip/material/hardening.hpp>
+
+namespace {
+
+using namespace element_check;
+using Material = FiniteJ2<LinearHardening>;
+const Material material{.young = 69e3, .poisson = 0.33, .hardening = {.yield = 30, .modulus = 260}};
+
+TEST_CASE("tangent of elements, J2 with linear hardening") {
+  const std::vector<std::vector<U>> plastic{{displacement(1)},
+                                            {displacement(0.2), displacement(-0.3), displacement(0.9)}};
+  for (const auto& path : plastic) {
+    CHECK(flows<MeanDilatation<Quad4>>(material, path));
+    CHECK(flows<FullyIntegrated<Quad4>>(material, path));
+  }
+  check_all(material, plastic);
+}
+
+TEST_CASE("tangent of elements that stay elastic, J2 with linear hardening") {
+  const Material hard{.young = 69e3, .poisson = 0.33, .hardening = {.yield = 1e6, .modulus = 260}};
+  CHECK_FALSE(flows<MeanDilatation<Quad4>>(hard, {displacement(1)}));
+  check_all(hard, {{displacement(1)}});
+}
+
+}  // namespace

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <stickslip/assembly/system.hpp>
+#include <stickslip/element/mean_dilatation.hpp>
+#include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/coulomb.hpp>
+#include <stickslip/inertia/quasistatic.hpp>
+#include <stickslip/kinematics/axisymmetric.hpp>
+#include <stickslip/kinematics/plane_strain.hpp>
+#include <stickslip/linear_solver/eigen_ldlt.hpp>
+#include <stickslip/material/finite_j2.hpp>
+#include <stickslip/material/hardening.hpp>
+#include <stickslip/verify/system.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using namespace stickslip;
+
+// A system needs no solver, only to know what it would store.
+struct AnySolver {
+  using Role = role::LinearSolver;
+  static constexpr Symmetry accepts = Symmetry::general;
+  static constexpr Symmetry storage = Symmetry::symmetric;
+  void analyze(const SparseView&) {}
+  Factorization factorize(const SparseView&) { return Factorization::failed; }
+  bool solve(const Real*, Real*) { return false; }
+};
+template <class K, class F>
+struct Model {
+  using Kinematics = K;
+  using Element = MeanDilatation<Quad4>;
+  using Material = FiniteJ2<LinearHardening>;
+  using Friction = F;
+  using Enforcement = Penalty;
+  using Inertia = Quasistatic;
+  using LinearSolver = AnySolver;
+};
+
+// 2 x 2 elements on a disc: nodes that slide, flow in the body, a load and a driven side.
+template <class M>
+verify::TangentReport check() {
+  using Kinematics = typename M::Kinematics;
+  Body<M> body(mesh::rectangle({.origin = {0.2, 0}, .size = {2, 1}, .cells = {2, 2}}), Kinematics{},
+               {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 40}});
+  std::vector<ContactPair<M>> pairs;
+  const Contact<M> contact{.side = "bottom",
+                           .tool = rigid::disc({1.1, -3.02}, 3),
+                           .motion = [](Real t) { return Vec<Real, 2>(0.3 * t, 0.05 * t); },
+                           .friction = {.mu = 0.2},
+                           .enforcement = {.normal = 2e3, .tangential = 5e2}};
+  pairs.emplace_back(contact, body.mesh(), body.kinematics());
+  typename System<M>::Inertia inertia{};
+  System<M> system(body, pairs, inertia, {{"top", 1, [](Real t) { return -0.1 * t; }}},
+                   {{"right", 0, [](Real t) { return 3 * t; }}});
+  Field u = Field::Zero(system.dofs().components());
+  CHECK_FALSE(bool(pairs[0].start(body.mesh(), u, 0)));
+  // One committed step, which leaves pressures and plastic strains, then the state that is checked.
+  Trouble trouble = system.impose(1, u);
+  for (Index i = 0; i < u.size(); ++i)
+    u[i] += system.dofs().equation(i) == Dofs::constrained ? 0 : 0.01 * std::sin(3.0 * i);
+  trouble = system.evaluate(u, 1, 1);
+  CHECK_FALSE(bool(trouble));
+  system.commit();
+  trouble = system.impose(2, u);
+  for (Index i = 0; i < u.size(); ++i)
+    u[i] += system.dofs().equation(i) == Dofs::constrained ? 0 : 0.02 * std::cos(2.0 * i);
+  trouble = system.evaluate(u, 2, 1);
+  CHECK_FALSE(bool(trouble));
+  CHECK(system.contact_summary().touching >= 1);
+  CHECK(system.contact_summary().sliding >= 1);
+  return verify::system_tangent(system, u, 2, 1, 1e-6);
+}
+
+TEST_CASE("tangent of a whole system, Coulomb") {
+  const auto plane = check<Model<PlaneStrain, Coulomb>>(), axi = check<Model<Axisymmetric, Coulomb>>();
+  CHECK(plane.by_differences < 1e-8);
+  CHECK(axi.by_differences < 1e-8);
+  CHECK(plane.asymmetry > 1e-3);
+}
+TEST_CASE("tangent of a whole system, Quasi-Coulomb: the lower triangle stands for all of it") {
+  const auto plane = check<Model<PlaneStrain, QuasiCoulomb>>(), axi = check<Model<Axisymmetric, QuasiCoulomb>>();
+  CHECK(plane.by_differences < 1e-8);
+  CHECK(axi.by_differences < 1e-8);
+}
+
+// The predictor of a driven step: residual to first order after the increments still to come.
+TEST_CASE("the tangent predictor carries the driven increments") {
+  using M = Model<PlaneStrain, QuasiCoulomb>;
+  Body<M> body(mesh::rectangle({.size = {2, 1}, .cells = {2, 2}}), PlaneStrain{},
+               {.young = 1000, .poisson = 0.3, .hardening = {.yield = 50, .modulus = 40}});
+  std::vector<ContactPair<M>> pairs;
+  typename System<M>::Inertia inertia{};
+  System<M> system(body, pairs, inertia, {{"top", 1, nullptr}, {"bottom", 1, nullptr}}, {});
+  Field u = Field::Zero(system.dofs().components()), driven = u;
+  for (const Index n : body.mesh().side("top").nodes) driven[2 * n + 1] = -1e-6;
+  Trouble trouble = system.evaluate(u, 0, 1, &driven);
+  CHECK_FALSE(bool(trouble));
+  const Field predicted = system.residual();
+  u += driven;
+  trouble = system.evaluate(u, 0, 1);
+  CHECK_FALSE(bool(trouble));
+  CHECK(predicted.norm() > 0);
+  CHECK((predicted - system.residual()).norm() < 1e-5 * predicted.norm());
+}
+
+}  // namespace

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSL-1.0
+// Nothing of ours is taken from the heap inside Newton's loop after the first iteration of a run. The linker sends the
+// calls that this program's own object code makes (Eigen's among them) to the counters below.
+#include <stickslip/element/mean_dilatation.hpp>
+#include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/coulomb.hpp>
+#include <stickslip/inertia/quasistatic.hpp>
+#include <stickslip/kinematics/axisymmetric.hpp>
+#include <stickslip/linear_solver/eigen_ldlt.hpp>
+#include <stickslip/material/finite_j2.hpp>
+#include <stickslip/material/hardening.hpp>
+#include <stickslip/problem.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+// Where an allocation is counted; off outside of runs.
+enum class Ledger { off, ours, solver } ledger = Ledger::off;
+long ours = 0, solvers = 0;
+void count() {
+  if (ledger == Ledger::ours) ++ours;
+  if (ledger == Ledger::solver) ++solvers;
+}
+}  // namespace
+
+extern "C" {
+void* __real_malloc(std::size_t);
+void* __real_calloc(std::size_t, std::size_t);
+void* __real_realloc(void*, std::size_t);
+void* __real_aligned_alloc(std::size_t, std::size_t);
+int __real_posix_memalign(void**, std::size_t, std::size_t);
+void* __wrap_malloc(std::size_t n) {
+  count();
+  return __real_malloc(n);
+}
+void* __wrap_calloc(std::size_t n, std::size_t size) {
+  count();
+  return __real_calloc(n, size);
+}
+void* __wrap_realloc(void* p, std::size_t n) {
+  count();
+  return __real_realloc(p, n);
+}
+void* __wrap_aligned_alloc(std::size_t alignment, std::size_t n) {
+  count();
+  return __real_aligned_alloc(alignment, n);
+}
+int __wrap_posix_memalign(void** p, std::size_t alignment, std::size_t n) {
+  count();
+  return __real_posix_memalign(p, alignment, n);
+}
+}
+
+[[gnu::noinline]] void* operator new(std::size_t n) {
+  count();
+  if (void* p = __real_malloc(n ? n : 1)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void* operator new(std::size_t n, std::align_val_t alignment) {
+  count();
+  if (void* p = __real_aligned_alloc(static_cast<std::size_t>(alignment), n)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
+
+namespace {
+
+using namespace stickslip;
+
+long iterations = 0;
+
+// Counts on our account from the end of the first solution of a run, save within the solver: what happens between the
+// steps is counted with the loops.
+class Watched {
+ public:
+  using Role = role::LinearSolver;
+  static constexpr Symmetry accepts = Symmetry::symmetric;
+  static constexpr Symmetry storage = Symmetry::symmetric;
+  void analyze(const SparseView& pattern) {
+    const Ledger before = std::exchange(ledger, Ledger::off);
+    solver_.analyze(pattern);
+    ledger = before;
+  }
+  Factorization factorize(const SparseView& matrix) {
+    const Ledger before = std::exchange(ledger, before_first() ? Ledger::off : Ledger::solver);
+    const Factorization f = solver_.factorize(matrix);
+    ledger = before;
+    return f;
+  }
+  bool solve(const Real* b, Real* x) {
+    ledger = before_first() ? Ledger::off : Ledger::solver;
+    const bool good = solver_.solve(b, x);
+    ++iterations;
+    ledger = Ledger::ours;  // from the end of the first solution on
+    return good;
+  }
+
+ private:
+  static bool before_first() { return iterations == 0; }
+  EigenLdlt solver_;
+};
+
+struct Model {
+  using Kinematics = Axisymmetric;
+  using Element = MeanDilatation<Quad4>;
+  using Material = FiniteJ2<PowerHardening>;
+  using Friction = QuasiCoulomb;
+  using Enforcement = Penalty;
+  using Inertia = Quasistatic;
+  using LinearSolver = Watched;
+};
+
+TEST_CASE("the counters see what they should") {
+  ledger = Ledger::ours;
+  const long before = ours;
+  Field* field = new Field(100);  // operator new, and Eigen's own malloc
+  ledger = Ledger::off;
+  CHECK(ours == before + 2);
+  delete field;
+  ours = 0;
+}
+
+TEST_CASE("Newton's loop allocates nothing after its first iteration") {
+  Problem<Model> p(
+      {.body = mesh::rectangle({.size = {10, 10}, .cells = {6, 6}}),
+       .material = {.young = 69004, .poisson = 0.3, .hardening = {.strength = 589, .offset = 1e-4, .exponent = 0.216}},
+       .contacts = {{.side = "top",
+                     .tool = rigid::disc({0, 30}, 20),
+                     .motion = [](Real t) { return Vec<Real, 2>(0, -1 * t); },
+                     .friction = {.mu = 0.2},
+                     .enforcement = {.normal = 1e5, .tangential = 1e4}}}});
+  p.hold("left", 0).hold("bottom", 1);
+  auto march = p.march({.end = 1, .steps = 10, .tolerance = 1e-8});
+  iterations = ours = solvers = 0;
+  long sliding = 0;
+  for (const auto& step : march) sliding += step.contact.sliding;
+  ledger = Ledger::off;
+  CHECK(bool(march.outcome()));
+  CHECK(march.report().steps == 10);
+  CHECK(iterations > 30);
+  CHECK(sliding > 0);
+  CHECK(p.max_plastic_strain() > 0.01);
+  CHECK(ours == 0);
+  MESSAGE("the solver's own allocations: ", solvers, " in ", iterations, " iterations");
+}
+
+}  // namespace

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSL-1.0
+// Wrong input: std::invalid_argument before any work, and the message names the input.
+#include <stickslip/element/mean_dilatation.hpp>
+#include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/coulomb.hpp>
+#include <stickslip/inertia/quasistatic.hpp>
+#include <stickslip/kinematics/axisymmetric.hpp>
+#include <stickslip/kinematics/plane_strain.hpp>
+#include <stickslip/linear_solver/eigen_ldlt.hpp>
+#include <stickslip/material/finite_j2.hpp>
+#include <stickslip/material/hardening.hpp>
+#include <stickslip/problem.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+namespace {
+
+using namespace stickslip;
+
+template <class K, class H>
+struct Model {
+  using Kinematics = K;
+  using Element = MeanDilatation<Quad4>;
+  using Material = FiniteJ2<H>;
+  using Friction = QuasiCoulomb;
+  using Enforcement = Penalty;
+  using Inertia = Quasistatic;
+  using LinearSolver = EigenLdlt;
+};
+using Plane = Model<PlaneStrain, LinearHardening>;
+using Turned = Model<Axisymmetric, PowerHardening>;
+
+constexpr Real nan = std::numeric_limits<Real>::quiet_NaN(), infinity = std::numeric_limits<Real>::infinity();
+
+// The message of the invalid_argument that f throws; empty if it throws none.
+template <class F>
+std::string complaint(F&& f) {
+  try {
+    f();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+#define COMPLAINS(part, ...) CHECK(complaint([&] { __VA_ARGS__; }).find(part) != std::string::npos)
+
+Problem<Plane>::Parameters good() {
+  return {.body = mesh::rectangle({.size = {1, 1}, .cells = {2, 2}}),
+          .material = {.young = 1000, .poisson = 0.3, .hardening = {.yield = 10, .modulus = 1}},
+          .contacts = {{.side = "top",
+                        .tool = rigid::line({0, 1.1}, {-1, 0}),
+                        .friction = {.mu = 0.1},
+                        .enforcement = {.normal = 1e3, .tangential = 1e2}}}};
+}
+Problem<Turned>::Parameters good_turned() {
+  return {.body = mesh::rectangle({.size = {1, 1}, .cells = {2, 2}}),
+          .material = {.young = 1000, .poisson = 0.3, .hardening = {.strength = 10, .offset = 1e-3, .exponent = 0.2}}};
+}
+template <class M, class Change>
+std::string after(typename Problem<M>::Parameters parameters, Change&& change) {
+  change(parameters);
+  return complaint([&] { const Problem<M> problem(parameters); });
+}
+bool says(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_CASE("good input is taken") {
+  CHECK(complaint([] { const Problem<Plane> p(good()); }).empty());
+  CHECK(complaint([] { const Problem<Turned> p(good_turned()); }).empty());
+}
+
+TEST_CASE("profiles") {
+  using rigid::path;
+  COMPLAINS("heading", (void)path({0, 0}, {0, 0}));
+  COMPLAINS("start", (void)path({nan, 0}, {1, 0}));
+  COMPLAINS("heading", (void)path({0, 0}, {infinity, 0}));
+  COMPLAINS("length", path({0, 0}, {1, 0}).straight(0));
+  COMPLAINS("length", path({0, 0}, {1, 0}).straight(-1));
+  COMPLAINS("length", path({0, 0}, {1, 0}).straight(nan));
+  COMPLAINS("radius", path({0, 0}, {1, 0}).right(0, 1));
+  COMPLAINS("radius", path({0, 0}, {1, 0}).left(infinity, 1));
+  COMPLAINS("angle", path({0, 0}, {1, 0}).right(1, 0));
+  COMPLAINS("angle", path({0, 0}, {1, 0}).left(1, 7));
+  COMPLAINS("angle", path({0, 0}, {1, 0}).left(1, nan));
+  COMPLAINS("endless", path({0, 0}, {1, 0}).endless());
+  COMPLAINS("endless", path({0, 0}, {1, 0}).right(1, 1).endless());
+  COMPLAINS("end where it starts", path({0, 0}, {1, 0}).straight(1).close());
+  COMPLAINS("end where it starts", path({0, 0}, {1, 0}).close());
+  COMPLAINS("two points", (void)rigid::rounded({{0, 0}}, 0.1));
+  COMPLAINS("radius", (void)rigid::rounded({{0, 0}, {1, 0}, {1, 1}}, -1));
+  COMPLAINS("point 1", (void)rigid::rounded({{0, 0}, {1, 0}, {1, 1}}, 2));
+  COMPLAINS("point 2", (void)rigid::rounded({{0, 0}, {5, 0}, {5, 1}, {0, 1}}, 0.9));
+}
+
+TEST_CASE("meshes") {
+  COMPLAINS("cell", (void)mesh::rectangle({.cells = {0, 1}}));
+  COMPLAINS("cell", (void)mesh::rectangle({.cells = {1, -1}}));
+  COMPLAINS("size", (void)mesh::rectangle({.size = {0, 1}}));
+  COMPLAINS("size", (void)mesh::rectangle({.size = {1, infinity}}));
+  COMPLAINS("size", (void)mesh::rectangle({.size = {nan, 1}}));
+  const auto m = mesh::rectangle({});
+  COMPLAINS("\"front\"", (void)m.side("front"));
+  COMPLAINS("bottom, left, right, top", (void)m.side("front"));
+}
+
+TEST_CASE("bodies") {
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.body = {}; }), "no cells"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.body.cells[3][0] = 99; }), "cell 3"));
+  CHECK(says(after<Plane>(good(),
+                          [](auto& p) {
+                            std::swap(p.body.cells[1][0], p.body.cells[1][2]),
+                                std::swap(p.body.cells[1][0], p.body.cells[1][1]);
+                          }),
+             "cell 1"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.body.nodes[4][0] = nan; }), "cell 0"));
+  CHECK(says(after<Turned>(good_turned(),
+                           [](auto& p) {
+                             for (auto& n : p.body.nodes) n[0] -= 5;
+                           }),
+             "positive radius"));
+}
+
+TEST_CASE("materials and kinematics") {
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.kinematics.thickness = 0; }), "thickness"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.kinematics.thickness = nan; }), "thickness"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.material.young = 0; }), "Young"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.material.young = nan; }), "Young"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.material.poisson = 0.5; }), "Poisson"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.material.poisson = -1; }), "Poisson"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.material.hardening.yield = 0; }), "yield"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.material.hardening.modulus = nan; }), "modulus"));
+  CHECK(says(after<Turned>(good_turned(), [](auto& p) { p.material.hardening.strength = 0; }), "strength"));
+  CHECK(says(after<Turned>(good_turned(), [](auto& p) { p.material.hardening.offset = 0; }), "offset"));
+  CHECK(says(after<Turned>(good_turned(), [](auto& p) { p.material.hardening.exponent = 1.1; }), "exponent"));
+}
+
+TEST_CASE("contacts") {
+  const auto contact = [](auto change) { return after<Plane>(good(), [&](auto& p) { change(p.contacts[0]); }); };
+  CHECK(says(contact([](auto& c) { c.side = "lid"; }), "\"lid\""));
+  CHECK(says(contact([](auto& c) { c.tool = rigid::path({0, 0}, {1, 0}); }), "contact \"top\""));
+  CHECK(says(contact([](auto& c) { c.enforcement.normal = 0; }), "normal stiffness"));
+  CHECK(says(contact([](auto& c) { c.enforcement.tangential = -1; }), "tangential stiffness"));
+  CHECK(says(contact([](auto& c) { c.enforcement.tangential = 0; }), "contact \"top\": friction needs"));
+  CHECK(says(contact([](auto& c) { c.friction.mu = -0.1; }), "mu"));
+  CHECK(says(contact([](auto& c) { c.friction.mu = nan; }), "mu"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.contacts.push_back(p.contacts[0]); }), "\"top\""));
+}
+
+TEST_CASE("supports, loads, contacts by name and tools that are nowhere") {
+  Problem<Plane> p(good());
+  COMPLAINS("\"lid\"", p.hold("lid", 0));
+  COMPLAINS("component 2", p.hold("top", 2));
+  COMPLAINS("component -1", p.drive("top", -1, [](Real t) { return t; }));
+  COMPLAINS("\"top\"", p.load("top", 0, nullptr));
+  COMPLAINS("\"lid\"", p.load("lid", 0, [](Real t) { return t; }));
+  auto pointed = good();
+  pointed.body.sides["point"].nodes = {0};
+  Problem<Plane> point(pointed);
+  COMPLAINS("\"point\"", point.load("point", 0, [](Real t) { return t; }));
+  COMPLAINS("\"punch\"", (void)p.contact("punch"));
+  COMPLAINS("\"lid\"", (void)p.reaction("lid", 0));
+  COMPLAINS("component 2", (void)p.reaction("top", 2));
+  auto parameters = good();
+  parameters.contacts[0].motion = [](Real) { return Vec<Real, 2>(nan, 0); };
+  Problem<Plane> nowhere(parameters);
+  COMPLAINS("contact \"top\"", (void)nowhere.march({}));
+}
+
+TEST_CASE("runs") {
+  Problem<Plane> p(good());
+  COMPLAINS("end", (void)p.march({.end = 0}));
+  COMPLAINS("end", (void)p.march({.end = infinity}));
+  COMPLAINS("end", (void)p.march({.end = nan}));
+  COMPLAINS("steps", (void)p.march({.steps = -1}));
+  COMPLAINS("tolerance", (void)p.march({.tolerance = 0}));
+  COMPLAINS("tolerance", (void)p.march({.tolerance = 1}));
+  COMPLAINS("tolerance", (void)p.march({.tolerance = nan}));
+  COMPLAINS("iteration", (void)p.march({.max_iterations = 0}));
+  COMPLAINS("step sizes", (void)p.march({.initial = -1}));
+  COMPLAINS("step sizes", (void)p.march({.largest = -1}));
+  COMPLAINS("step sizes", (void)p.march({.smallest = -1}));
+}
+
+}  // namespace

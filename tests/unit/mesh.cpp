@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <stickslip/assembly/dofs.hpp>
+#include <stickslip/assembly/facet.hpp>
+#include <stickslip/element/gradient_operator.hpp>
+#include <stickslip/element/quad4.hpp>
+#include <stickslip/kinematics/axisymmetric.hpp>
+#include <stickslip/kinematics/plane_strain.hpp>
+#include <stickslip/mesh/mesh.hpp>
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+namespace {
+
+using namespace stickslip;
+
+Real area(const Mesh<2, 4>& m, std::size_t cell) {
+  Real twice = 0;
+  for (std::size_t a = 0; a < 4; ++a) {
+    const auto& p = m.nodes[std::size_t(m.cells[cell][a])];
+    const auto& q = m.nodes[std::size_t(m.cells[cell][(a + 1) % 4])];
+    twice += p[0] * q[1] - p[1] * q[0];
+  }
+  return 0.5 * twice;
+}
+
+TEST_CASE("rectangle: every node and cell once, cells counter-clockwise, areas add up") {
+  for (const auto& cells : {std::array<Index, 2>{3, 2}, {2, 3}, {1, 1}, {4, 4}, {1, 7}}) {
+    const auto m = mesh::rectangle({.origin = {1, -2}, .size = {3, 4}, .cells = cells});
+    CHECK(m.node_count() == (cells[0] + 1) * (cells[1] + 1));
+    CHECK(m.cell_count() == cells[0] * cells[1]);
+    Real sum = 0;
+    std::set<std::array<Index, 4>> seen;
+    for (std::size_t e = 0; e < m.cells.size(); ++e) {
+      CHECK(area(m, e) == doctest::Approx(12.0 / m.cell_count()).epsilon(1e-14));
+      sum += area(m, e);
+      seen.insert(m.cells[e]);
+    }
+    CHECK(seen.size() == m.cells.size());
+    CHECK(sum == doctest::Approx(12).epsilon(1e-14));
+    std::set<std::pair<Real, Real>> places;
+    for (const auto& n : m.nodes) places.insert({n[0], n[1]});
+    CHECK(places.size() == m.nodes.size());
+  }
+}
+
+TEST_CASE("rectangle: the numbering runs along the direction with fewer cells") {
+  for (const auto& cells : {std::array<Index, 2>{9, 2}, {2, 9}}) {
+    const auto m = mesh::rectangle({.cells = cells});
+    Index widest = 0;
+    for (const auto& c : m.cells)
+      widest = std::max(widest, *std::max_element(c.begin(), c.end()) - *std::min_element(c.begin(), c.end()));
+    CHECK(widest == 4);  // 3 nodes a layer: the next layer's neighbour is 3 + 1 away
+  }
+}
+
+TEST_CASE("rectangle: named sides lie on their lines, the body on the left of their facets") {
+  const auto m = mesh::rectangle({.origin = {1, -2}, .size = {3, 4}, .cells = {3, 2}});
+  const auto check = [&](const char* name, int component, Real value, std::size_t count) {
+    const auto& side = m.side(name);
+    CHECK(side.nodes.size() == count + 1);
+    CHECK(side.facets.size() == count);
+    for (const Index n : side.nodes) CHECK(m.nodes[std::size_t(n)][component] == doctest::Approx(value).epsilon(1e-15));
+    const Vec<Real, 2> middle(2.5, 0);
+    for (const auto& f : side.facets) {
+      const Vec<Real, 2> a = m.nodes[std::size_t(f[0])], along = m.nodes[std::size_t(f[1])] - a, to = middle - a;
+      CHECK(along[0] * to[1] - along[1] * to[0] > 0);
+    }
+  };
+  check("left", 0, 1, 2);
+  check("right", 0, 4, 2);
+  check("bottom", 1, -2, 3);
+  check("top", 1, 2, 3);
+}
+
+TEST_CASE("the area that a node carries of a facet") {
+  const auto m = mesh::rectangle({.origin = {1, 0}, .size = {2, 1}, .cells = {1, 1}});
+  const auto bottom = m.side("bottom").facets[0];
+  CHECK(facet_share(m, PlaneStrain{.thickness = 3}, bottom, bottom[0]) == doctest::Approx(3).epsilon(1e-15));
+  CHECK(facet_share(m, PlaneStrain{.thickness = 3}, bottom, bottom[1]) == doctest::Approx(3).epsilon(1e-15));
+  CHECK(facet_share(m, PlaneStrain{}, bottom, m.side("top").nodes[0]) == 0);
+  // Axisymmetric, from r = 1 to 3: the integral of 2 pi r N_a dr.
+  const Real inner = facet_share(m, Axisymmetric{}, bottom, bottom[0]),
+             outer = facet_share(m, Axisymmetric{}, bottom, bottom[1]);
+  CHECK(inner == doctest::Approx(2 * pi * (2 * (1.0 / 2 + 2.0 / 6))).epsilon(1e-14));
+  CHECK(inner + outer == doctest::Approx(pi * (9 - 1)).epsilon(1e-14));
+}
+
+TEST_CASE("bilinear shape functions: partition of one, and the rule integrates the area") {
+  const auto rule = Quad4::quadrature();
+  Mat<Real, 4, 2> X;
+  X << 1.0, 0.1, 2.3, -0.2, 2.0, 1.4, 0.8, 0.9;
+  Real sum = 0;
+  for (const auto& q : rule) {
+    CHECK(Quad4::shape(q.xi).sum() == doctest::Approx(1).epsilon(1e-15));
+    CHECK(Quad4::gradient(q.xi).colwise().sum().norm() < 1e-15);
+    const auto point = point_geometry<PlaneStrain, Quad4>({}, X, q.xi, q.weight);
+    sum += point.weight;
+    CHECK((X.transpose() * point.dN_dX - Mat<Real, 2>::Identity()).norm() < 1e-14);
+  }
+  Real twice = 0;
+  for (int a = 0; a < 4; ++a) twice += X(a, 0) * X((a + 1) % 4, 1) - X(a, 1) * X((a + 1) % 4, 0);
+  CHECK(sum == doctest::Approx(0.5 * twice).epsilon(1e-14));
+}
+
+TEST_CASE("dofs number the unknowns and move fields to and fro") {
+  const Dofs dofs(6, {false, true, false, false, true, false});
+  CHECK(dofs.unknowns() == 4);
+  CHECK(dofs.components() == 6);
+  CHECK(dofs.equation(1) == Dofs::constrained);
+  CHECK(dofs.equation(5) == 3);
+  Field field(6), unknowns(4);
+  field << 1, 2, 3, 4, 5, 6;
+  dofs.gather(field, unknowns);
+  CHECK(unknowns == (Field(4) << 1, 3, 4, 6).finished());
+  dofs.scatter_add(2, unknowns, field);
+  CHECK(field == (Field(6) << 3, 2, 9, 12, 5, 18).finished());
+}
+
+}  // namespace

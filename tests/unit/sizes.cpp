@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSL-1.0
+// An effect that the scene does not call for takes no memory.
+#include <stickslip/element/mean_dilatation.hpp>
+#include <stickslip/enforcement/no_contact.hpp>
+#include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/coulomb.hpp>
+#include <stickslip/friction/frictionless.hpp>
+#include <stickslip/inertia/quasistatic.hpp>
+#include <stickslip/kinematics/axisymmetric.hpp>
+#include <stickslip/kinematics/plane_strain.hpp>
+#include <stickslip/linear_solver/eigen_ldlt.hpp>
+#include <stickslip/material/finite_j2.hpp>
+#include <stickslip/material/hardening.hpp>
+#include <stickslip/material/hencky.hpp>
+#include <stickslip/problem.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using namespace stickslip;
+
+struct GeneralSolver {
+  using Role = role::LinearSolver;
+  static constexpr Symmetry accepts = Symmetry::general;
+  static constexpr Symmetry storage = Symmetry::symmetric;
+  void analyze(const SparseView&) {}
+  Factorization factorize(const SparseView&) { return Factorization::failed; }
+  bool solve(const Real*, Real*) { return false; }
+};
+template <class M, class F, class E, class K = PlaneStrain>
+struct Model {
+  using Kinematics = K;
+  using Element = MeanDilatation<Quad4>;
+  using Material = M;
+  using Friction = F;
+  using Enforcement = E;
+  using Inertia = Quasistatic;
+  using LinearSolver = GeneralSolver;
+};
+using J2 = FiniteJ2<LinearHardening>;
+using Free = Model<Hencky, Frictionless, NoContact>;
+using Smooth = Model<Hencky, Frictionless, Penalty>;
+using Rough = Model<Hencky, Coulomb, Penalty>;
+using Lagged = Model<Hencky, QuasiCoulomb, Penalty>;
+
+static_assert(Body<Free>::bytes_per_point == 0);
+static_assert(Body<Model<J2, Frictionless, NoContact>>::bytes_per_point == 5 * sizeof(Real));
+static_assert(Body<Model<FiniteJ2<PowerHardening>, Frictionless, NoContact>>::bytes_per_point == 5 * sizeof(Real));
+static_assert(ContactPair<Smooth>::bytes_per_node == 0);
+static_assert(ContactPair<Rough>::bytes_per_node == 3 * sizeof(Real));   // traction, place, slip
+static_assert(ContactPair<Lagged>::bytes_per_node == 4 * sizeof(Real));  // and the pressure
+static_assert(!PointMemory<Hencky::State<Real, Planar>, 4>::stored);
+static_assert(std::is_empty_v<PointMemory<Hencky::State<Real, Planar>, 4>>);
+static_assert(sizeof(PointGeometry<Axisymmetric, 4>) == sizeof(PointGeometry<PlaneStrain, 4>) + 4 * sizeof(Real));
+
+// Without contact there is no list of pairs.
+static_assert(std::is_empty_v<System<Free>::Pairs>);
+static_assert(!std::is_empty_v<System<Smooth>::Pairs>);
+static_assert(sizeof(Problem<Smooth>) > sizeof(Problem<Free>));
+static_assert(sizeof(Problem<Smooth>::Parameters) > sizeof(Problem<Free>::Parameters));
+// A pair without friction keeps neither of its two vectors of memory, nor a law.
+static_assert(sizeof(ContactPair<Rough>) >= sizeof(ContactPair<Smooth>) + 2 * sizeof(std::vector<int>));
+static_assert(std::is_empty_v<decltype(Contact<Smooth>::friction)>);
+static_assert(sizeof(Contact<Lagged>) == sizeof(Contact<Rough>));
+// Nothing is nothing, also twice.
+struct A;
+struct B;
+struct Both {
+  [[no_unique_address]] Nothing<A> a;
+  [[no_unique_address]] Nothing<B> b;
+  Real x;
+};
+static_assert(sizeof(Both) == sizeof(Real));
+
+template <class M>
+SparseView view_of(System<M>& system) {
+  return system.matrix();
+}
+
+TEST_CASE("a symmetric system stores its lower triangle only") {
+  const auto mesh = mesh::rectangle({.cells = {3, 3}});
+  const auto count = [&](auto tag) {
+    using M = decltype(tag);
+    Body<M> body(mesh, {}, {.young = 1, .poisson = 0.3});
+    std::vector<ContactPair<M>> pairs;
+    typename System<M>::Inertia inertia{};
+    System<M> system(body, pairs, inertia, {{"bottom", 1, nullptr}}, {});
+    const SparseView view = system.matrix();
+    bool upper = false;
+    for (Index j = 0; j < view.size; ++j)
+      for (Index k = view.column_start[j]; k < view.column_start[j + 1]; ++k) upper = upper || view.row[k] < j;
+    CHECK(upper == (view.symmetry == Symmetry::general));
+    return std::pair(view.size, view.nonzeros());
+  };
+  const auto [n, lagged] = count(Lagged{});
+  const auto [m, rough] = count(Rough{});
+  CHECK(n == m);
+  CHECK(n == 32 - 4);
+  CHECK(rough == 2 * lagged - n);
+  static_assert(Problem<Lagged>::symmetric_storage && Problem<Smooth>::symmetric_storage &&
+                !Problem<Rough>::symmetric_storage);
+}
+
+}  // namespace
