@@ -43,11 +43,6 @@ struct With : Base {
   using LinearSolver = Solver_;
 };
 
-/// True when the solver takes the systems that the friction makes.
-template <class Model>
-constexpr bool admitted = stickslip::system_symmetry<Model> == stickslip::Symmetry::symmetric ||
-                          stickslip::SolverOf<Model>::accepts == stickslip::Symmetry::general;
-
 /// Calls run.template operator()<Model>() for the bundle that the options name.
 template <class Base, class Frictions, class Solvers, class Run>
 int dispatch(const Options& options, const Frictions& frictions, const Solvers& solvers, Run&& run) {
@@ -57,7 +52,7 @@ int dispatch(const Options& options, const Frictions& frictions, const Solvers& 
     if (options.friction != friction.name) return;
     solvers.for_each([&]<class S>(Named<S> solver) {
       using Model = With<Base, F, S>;
-      if constexpr (admitted<Model>) {
+      if constexpr (stickslip::valid_model<Model>) {
         able.emplace_back(solver.name);
         if (options.solver == solver.name) code = run.template operator()<Model>();
       }
@@ -75,7 +70,7 @@ int print_list(const Frictions& frictions, const Solvers& solvers) {
   frictions.for_each([&]<class F>(Named<F> friction) {
     std::cout << friction.name << ":";
     solvers.for_each([&]<class S>(Named<S> solver) {
-      if constexpr (admitted<With<Base, F, S>>) std::cout << ' ' << solver.name;
+      if constexpr (stickslip::valid_model<With<Base, F, S>>) std::cout << ' ' << solver.name;
     });
     std::cout << '\n';
   });
