@@ -15,9 +15,6 @@
 
 #include "common/benchmark.hpp"
 
-#include <stickslip/linear_solver/banded.hpp>
-#include <stickslip/linear_solver/cholmod.hpp>
-#include <stickslip/linear_solver/umfpack.hpp>
 #include <stickslip/stickslip.hpp>
 
 using namespace stickslip;
@@ -27,12 +24,6 @@ struct Punch : QuasistaticDefaults {
   using Kinematics = Axisymmetric;
   using Material = FiniteJ2<PowerHardening>;
 };
-constexpr examples::Choices frictions{examples::Named<Coulomb>{"coulomb"},
-                                      examples::Named<QuasiCoulomb>{"quasi-coulomb"},
-                                      examples::Named<Frictionless>{"frictionless"}};
-constexpr examples::Choices solvers{examples::Named<Banded>{"banded"}, examples::Named<EigenLdlt>{"eigen-ldlt"},
-                                    examples::Named<EigenLu>{"eigen-lu"}, examples::Named<Cholmod>{"cholmod"},
-                                    examples::Named<Umfpack>{"umfpack"}};
 
 // How much of it, decided at run time.
 constexpr Real punch_radius = 50.8, die_fillet = 6.35, rim = 59.18, thickness = 1.0;
@@ -70,13 +61,18 @@ int punch(const examples::Options& options) {
                                           .travel = "punch travel",
                                           .force = "punch force",
                                           .view = "set xrange [0:75]\nset yrange [-50:20]"},
-                               .march = {.end = 1, .initial = 0.1 / travel, .largest = 0.8 / travel},
+                               .march = {.end = 1,
+                                         .initial = 0.1 / travel,
+                                         .largest = 0.8 / travel,
+                                         .stops = {10 / travel, 20 / travel, 30 / travel}},
                                .travel_mm = [travel](const Problem<Model>& p) { return travel * p.time(); },
                                .force_N = [](const Problem<Model>& p) { return p.contact_force("punch")[1]; },
                                .reach_mm = 60});
 }
 
 int main(int argc, char** argv) {
+  constexpr auto frictions = examples::coulomb_laws;
+  constexpr auto solvers = examples::all_solvers;
   const examples::Program program{
       .name = "osu_punch",
       .title = "a clamped sheet stretched over a hemispherical punch",

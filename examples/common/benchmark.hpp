@@ -7,25 +7,44 @@
 #include "pictures.hpp"
 #include "record.hpp"
 
+#include <stickslip/friction/coulomb.hpp>
+#include <stickslip/friction/frictionless.hpp>
 #include <stickslip/io/vtu.hpp>
+#include <stickslip/linear_solver/banded.hpp>
+#include <stickslip/linear_solver/cholmod.hpp>
+#include <stickslip/linear_solver/eigen_direct.hpp>
+#include <stickslip/linear_solver/umfpack.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/verify/energy.hpp>
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
 namespace examples {
 
+/// The paper's friction laws and all solvers, under their command-line names.
+inline constexpr Choices coulomb_laws{Named<stickslip::Coulomb>{"coulomb"},
+                                      Named<stickslip::QuasiCoulomb>{"quasi-coulomb"},
+                                      Named<stickslip::Frictionless>{"frictionless"}};
+inline constexpr Choices all_solvers{Named<stickslip::Banded>{"banded"}, Named<stickslip::EigenLdlt>{"eigen-ldlt"},
+                                     Named<stickslip::EigenLu>{"eigen-lu"}, Named<stickslip::Cholmod>{"cholmod"},
+                                     Named<stickslip::Umfpack>{"umfpack"}};
+
 /// What is particular to a benchmark.
 template <class Model>
 struct Benchmark {
   Labels labels;
-  stickslip::MarchOptions march{};                                    ///< end, first and largest step
-  std::function<double(const stickslip::Problem<Model>&)> travel_mm;  ///< abscissa of the history
-  std::function<double(const stickslip::Problem<Model>&)> force_N;    ///< ordinate of the history
-  double reach_mm = 100;                                              ///< how far the tools are drawn
+  stickslip::MarchOptions march{};                                           ///< end, first and largest step
+  std::function<double(const stickslip::Problem<Model>&)> travel_mm;         ///< abscissa of the history
+  std::function<double(const stickslip::Problem<Model>&)> force_N;           ///< ordinate of the history
+  bool energies = false;                                                     ///< keep the books of work and energy
+  std::function<bool(const stickslip::Problem<Model>&)> self_penetration{};  ///< whether the body passes through itself
+  double reach_mm = 100;                                                     ///< how far the tools are drawn
 };
 
-/// Marches the problem to its end, keeps about 40 states as VTU, and writes what the options ask for.
+/// Marches the problem to its end, keeps about 40 states as VTU and the deformed mesh at the march's stops, and writes
+/// what the options ask for.
 template <class Model>
 int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Model> benchmark) {
   using namespace stickslip;
@@ -55,10 +74,19 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   Clock clock;
   clock.start();
   auto march = problem.march(benchmark.march);
+  std::optional<verify::EnergyLedger<Model>> ledger;
+  if (benchmark.energies) ledger.emplace(problem);
   for (const StepReport& step : march) {
     clock.stop();
     r.steps.push_back(step);
     note();
+    if (ledger) ledger->update(step);
+    if (benchmark.self_penetration && !r.self_penetration_mm && benchmark.self_penetration(problem))
+      r.self_penetration_mm = r.travel_mm.back();
+    if (files)
+      for (const double stop : benchmark.march.stops)
+        if (std::abs(step.time - stop) < 1e-9 * benchmark.march.end)
+          write_mesh_data(options.output / shot_name(r.travel_mm.back()), problem);
     show_progress(options, r, step.time / benchmark.march.end);
     if (files && step.time >= next_frame) {
       keep_state();
@@ -73,6 +101,8 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   r.outcome = march.outcome();
   r.report = march.report();
   r.max_plastic_strain = problem.max_plastic_strain();
+  if (ledger) r.energies = ledger->energies();
+  r.checks_self_penetration = static_cast<bool>(benchmark.self_penetration);
   r.seconds = clock.seconds();
   if (files) {
     if (last_frame < problem.time()) keep_state();

@@ -28,19 +28,23 @@ void write_mesh_data(const std::filesystem::path& path, const stickslip::Problem
                                   volume[static_cast<std::size_t>(e)] += weight;
                                 });
   std::ofstream out(path);
-  out << "# x y plastic_strain: one patch a cell\n";
+  out << "# x y plastic_strain x_at_start y_at_start: one patch a cell\n";
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const auto& cell = mesh.cells[e];
     for (const std::size_t a : {0u, 1u, 3u, 2u}) {
       const auto n = cell[a];
       const stickslip::Vec<double, 2> x = mesh.nodes[static_cast<std::size_t>(n)] + problem.displacement(n);
-      out << x[0] << ' ' << x[1] << ' ' << (volume[e] > 0 ? value[e] / volume[e] : 0.0) << '\n';
+      out << x[0] << ' ' << x[1] << ' ' << (volume[e] > 0 ? value[e] / volume[e] : 0.0) << ' '
+          << mesh.nodes[static_cast<std::size_t>(n)][0] << ' ' << mesh.nodes[static_cast<std::size_t>(n)][1] << '\n';
       if (a == 1) out << '\n';
     }
     out << "\n\n";
   }
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
 }
+
+/// Name of the file that holds the deformed mesh at a travel: mesh_10.0.dat.
+std::string shot_name(double travel_mm);
 
 /// Data of the tools at a time, a block each.
 template <class Model>

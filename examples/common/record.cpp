@@ -62,6 +62,24 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
   j["max_plastic_strain"] = r.max_plastic_strain;
   j["max_lag"] = r.report.max_lag;
   j["final_force_N"] = r.force_N.back();
+  if (r.energies) {
+    const auto& e = *r.energies;
+    constexpr double joule = 1e-3;  // a N mm
+    j["kinetic_energy_J"] = e.kinetic * joule;
+    j["plastic_work_J"] = e.plastic * joule;
+    j["friction_work_J"] = e.friction * joule;
+    j["external_work_J"] = e.external * joule;
+    j["elastic_energy_J"] = e.elastic * joule;
+    j["penalty_energy_J"] = e.penalty * joule;
+    j["algorithmic_work_J"] = e.algorithmic * joule;
+    j["unbalanced_work_J"] = e.unbalanced() * joule;
+  }
+  if (r.checks_self_penetration) {
+    if (r.self_penetration_mm)
+      j["self_penetration_from_mm"] = *r.self_penetration_mm;
+    else
+      j["self_penetration_from_mm"] = nullptr;
+  }
   j["history"] = {{"time_s", r.time_s}, {"displacement_mm", r.travel_mm}, {"force_N", r.force_N}};
   return j;
 }
@@ -98,6 +116,10 @@ void draw_results(const Options& options, const Record& r) {
 }
 
 }  // namespace
+
+std::string shot_name(double travel_mm) {
+  return "mesh_" + short_number(travel_mm, "%.1f") + ".dat";
+}
 
 void draw(const std::filesystem::path& directory, const std::string& name, const std::string& body, int width,
           int height) {
@@ -155,6 +177,9 @@ int conclude(const Options& options, const Record& r) {
         r.labels.name.c_str(), options.friction.c_str(), options.mu, options.solver.c_str(), r.report.steps,
         r.report.iterations, r.report.rejected_steps, r.travel_mm.back(), r.force_N.back(), r.report.max_penetration,
         r.report.max_slip, r.report.max_lag, 1e3 * r.seconds);
+  if (!options.quiet && r.self_penetration_mm)
+    std::fprintf(stderr, "%s: from %.1f mm on the body passes through itself; there is no self-contact yet\n",
+                 r.labels.name.c_str(), *r.self_penetration_mm);
   if (!r.outcome) std::cerr << r.labels.name << ": " << r.outcome.message() << '\n';
   return r.outcome ? 0 : 1;
 }

@@ -6,9 +6,11 @@
 
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/solve/report.hpp>
+#include <stickslip/verify/energy.hpp>
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,9 @@ struct Record {
   std::vector<double> time_s{}, travel_mm{}, force_N{};  ///< one entry more than steps: the start
   double max_plastic_strain = 0;
   double seconds = 0;
+  std::optional<stickslip::verify::Energies> energies{};  ///< [N mm], where the benchmark keeps the books
+  bool checks_self_penetration = false;
+  std::optional<double> self_penetration_mm{};  ///< travel from which on the body passes through itself
 };
 
 /// Wall clock that can be stopped while files are written.

@@ -133,10 +133,17 @@ class Problem {
     return *this;
   }
 
-  /// Sets the velocity of all nodes, for a start at time 0 [length / time].
-  Problem& start_velocity(const Vec<Real, dim>& velocity) requires has_inertia<Model> {
+  /// Sets the velocity at time 0, of all nodes alike or as a function of the reference position [length / time].
+  Problem& start_velocity(const Vec<Real, dim>& velocity)
+    requires has_inertia<Model>
+  {
+    return start_velocity([velocity](const Vec<Real, dim>&) { return velocity; });
+  }
+  Problem& start_velocity(const std::function<Vec<Real, dim>(const Vec<Real, dim>&)>& velocity)
+    requires has_inertia<Model>
+  {
     for (Index n = 0; n < body_.mesh().node_count(); ++n)
-      inertia_->velocity().template segment<dim>(n * dim) = velocity;
+      inertia_->velocity().template segment<dim>(n * dim) = velocity(body_.mesh().nodes[static_cast<std::size_t>(n)]);
     return *this;
   }
 
@@ -147,6 +154,11 @@ class Problem {
   }
 
   Real time() const { return time_; }
+  /// The discrete system of the last run; it exists once a march has begun.
+  const System<Model>& system() const {
+    if (!system_) throw std::invalid_argument("the problem has no system before its first march");
+    return *system_;
+  }
   const BodyType& body() const { return body_; }
   /// Converged nodal displacements, node * dim + component [length].
   const Field& displacement() const { return u_; }

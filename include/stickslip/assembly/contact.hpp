@@ -180,6 +180,20 @@ class ContactPair {
     return {};
   }
 
+  /// Energy that penetration and sticking store at the converged state, where the enforcement tells it.
+  Real stored_energy() const
+    requires requires(const Enforcement& e) { e.energy(Real(), Real()); }
+  {
+    Real sum = 0;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (!states_[k].touching) continue;
+      sum += contact_.enforcement.energy(states_[k].gap, weight_[k]);
+      if constexpr (has_friction<Model>)
+        sum += 0.5 * committed_[k].friction.traction.squaredNorm() / contact_.enforcement.stick_stiffness(weight_[k]);
+    }
+    return sum;
+  }
+
   /// Makes the memory and the forces of the last assembly the converged ones.
   void commit() {
     if constexpr (remembers) std::swap(committed_, trial_);

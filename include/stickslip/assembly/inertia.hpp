@@ -118,6 +118,7 @@ class InertiaForces {
   const Field& velocity() const { return velocity_; }
   Field& velocity() { return velocity_; }
   const Field& acceleration() const { return acceleration_; }
+  const TimeScheme& scheme() const { return policy_.scheme; }
 
  private:
   const BodyType& body_;

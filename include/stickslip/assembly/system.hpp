@@ -154,7 +154,10 @@ class System {
   /// Force of a support on the body, by nodal component, inertia included; zero to the tolerance at free components.
   /// With generalised-alpha it is that of the balance, between the start and the end of the step.
   Real reaction(Index component) const { return balance_[component]; }
+  /// Nodal forces of the last evaluation by component [force].
   const Field& internal() const { return internal_; }
+  const Field& contact() const { return contact_; }
+  const Field& external() const { return external_; }
 
   /// What all contact pairs did in the last evaluation.
   ContactSummary contact_summary() const {

@@ -26,6 +26,8 @@ struct Penalty {
     return {gap * (normal * weight), S(normal * weight)};
   }
   Real stick_stiffness(Real weight) const { return tangential * weight; }
+  /// Energy stored in a penetration (theory.md, eq. 4.5).
+  Real energy(Real gap, Real weight) const { return 0.5 * normal * weight * gap * gap; }
 
   void validate() const {
     if (!(normal > 0)) throw std::invalid_argument("penalty: the normal stiffness must be positive");

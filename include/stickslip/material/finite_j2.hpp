@@ -97,6 +97,14 @@ struct FiniteJ2 {
     return S(0.5 * bulk - shear / 3) * volumetric * volumetric + S(shear) * square;
   }
 
+  /// Plastic work per reference volume spent up to the memory `state`, where the hardening offers its integral.
+  template <class Shape>
+  Real plastic_work(const State<Real, Shape>& state) const
+    requires requires { hardening.work(state.plastic_strain); }
+  {
+    return hardening.work(state.plastic_strain);
+  }
+
   void validate() const {
     ElasticModuli::validate(young, poisson);
     if constexpr (requires { hardening.validate(); }) hardening.validate();

@@ -18,6 +18,8 @@ struct LinearHardening {
   FlowStress<S> flow(const S& p) const {
     return {S(yield) + p * modulus, S(modulus)};
   }
+  /// Plastic work per reference volume up to p: the integral of the flow stress.
+  Real work(Real p) const { return p * (yield + 0.5 * modulus * p); }
   void validate() const {
     if (!(yield > 0)) throw std::invalid_argument("linear hardening: the yield stress must be positive");
     if (!std::isfinite(modulus)) throw std::invalid_argument("linear hardening: the modulus must be finite");
@@ -37,6 +39,10 @@ struct PowerHardening {
     const S base = p + S(offset);
     const S value = S(strength) * pow(base, exponent);
     return {value, S(exponent) * value / base};
+  }
+  /// Plastic work per reference volume up to p: the integral of the flow stress.
+  Real work(Real p) const {
+    return strength / (exponent + 1) * (std::pow(offset + p, exponent + 1) - std::pow(offset, exponent + 1));
   }
   void validate() const {
     if (!(strength > 0)) throw std::invalid_argument("power hardening: the strength must be positive");
