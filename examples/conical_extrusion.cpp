@@ -69,7 +69,7 @@ int extrude(const examples::Options& options) {
                                           .view = "set xrange [0:120]\nset yrange [0:620]"},
                                .march = {.end = 1,
                                          .initial = 0.1 / travel,
-                                         .largest = 2.0 / travel,
+                                         .largest = 1.6 / travel,
                                          .stops = {44.5 / travel, 89 / travel, 135 / travel}},
                                .travel_mm = [](const Problem<Model>& b) { return travel * b.time(); },
                                .force_N = [](const Problem<Model>& b) { return b.reaction("bottom", 1); },
