@@ -134,14 +134,11 @@ class Problem {
   }
 
   /// Sets the velocity at time 0, of all nodes alike or as a function of the reference position [length / time].
-  Problem& start_velocity(const Vec<Real, dim>& velocity)
-    requires has_inertia<Model>
-  {
+  Problem& start_velocity(const Vec<Real, dim>& velocity) requires has_inertia<Model> {
     return start_velocity([velocity](const Vec<Real, dim>&) { return velocity; });
   }
-  Problem& start_velocity(const std::function<Vec<Real, dim>(const Vec<Real, dim>&)>& velocity)
-    requires has_inertia<Model>
-  {
+  Problem& start_velocity(const std::function<Vec<Real, dim>(const Vec<Real, dim>&)>& velocity) requires
+      has_inertia<Model> {
     for (Index n = 0; n < body_.mesh().node_count(); ++n)
       inertia_->velocity().template segment<dim>(n * dim) = velocity(body_.mesh().nodes[static_cast<std::size_t>(n)]);
     return *this;
@@ -291,8 +288,21 @@ void March<Model>::advance() {
     report_.iterations += newton.iterations;
     report_.work = newton_.counts;
     report_.timings = system.timings;
+    Real local_error = 0, error = 0;
+    if constexpr (has_inertia<Model>) {
+      if (!newton.trouble) local_error = problem_.inertia_->local_error();
+      if (options_.time_tolerance > 0) error = local_error / options_.time_tolerance;
+      if (error > 2 && options_.steps == 0) {
+        control_.reject(time, error);
+        if (!control_.too_small()) {
+          ++rejected;
+          ++report_.rejected_steps;
+          continue;
+        }
+      }
+    }
     if (!newton.trouble) {
-      control_.accept(time, newton.iterations);
+      control_.accept(time, newton.iterations, error);
       system.commit();
       problem_.last_increment_ = u - problem_.u_;
       problem_.last_dt_ = dt;
@@ -305,8 +315,10 @@ void March<Model>::advance() {
                .dt = dt,
                .iterations = newton.iterations,
                .rejected = rejected,
-               .residual = newton.residual};
-      step_.contact = system.contact_summary();
+               .residual = newton.residual,
+               .contact = system.contact_summary(),
+               .lag = 0,
+               .local_error = local_error};
       step_.lag = step_.contact.max_bound > 0 ? step_.contact.max_lag / step_.contact.max_bound : 0;
       report_.max_penetration = std::max(report_.max_penetration, step_.contact.max_penetration);
       report_.max_slip = std::max(report_.max_slip, step_.contact.max_slip);

@@ -202,6 +202,28 @@ TEST_CASE("a plastic block skids over a rough floor and the books close") {
   CHECK(std::abs(e.algorithmic) < 0.05 * e.external);
 }
 
+TEST_CASE("the local error is held under a tolerance, and the answer follows it") {
+  const Field reference = swayed(chung_hulbert(0.5), 6400);
+  Real last_error = 1;
+  Index last_steps = 0;
+  for (const Real tolerance : {1e-3, 1e-4, 1e-5}) {
+    Problem<Flying> block{{.body = mesh::rectangle({.size = {1, 2}, .cells = {2, 4}}),
+                           .material = rubber,
+                           .inertia = {.density = 1, .scheme = chung_hulbert(0.5)}}};
+    block.hold("bottom", 0).hold("bottom", 1);
+    block.start_velocity([](const Vec<Real, 2>& X) { return Vec<Real, 2>(2.5 * X[1], 0); });
+    auto march = block.march({.end = 0.5, .initial = 1e-4, .tolerance = 1e-10, .time_tolerance = tolerance});
+    for (const StepReport& step : march) CHECK(step.local_error <= 2 * tolerance);
+    REQUIRE(march.outcome());
+    const Real error = (block.displacement() - reference).norm();
+    CHECK(error < 0.5 * last_error);
+    CHECK(march.report().steps > 1.5 * last_steps);
+    last_error = error;
+    last_steps = march.report().steps;
+  }
+  CHECK(last_error < 1e-3 * reference.norm());
+}
+
 TEST_CASE("an imposed velocity with a consistent start sends no shock") {
   Problem<Flying> bar{
       {.body = mesh::rectangle({.size = {1, 5}, .cells = {1, 10}}), .material = rubber, .inertia = {.density = 1}}};

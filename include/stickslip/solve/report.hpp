@@ -18,6 +18,7 @@ struct StepReport {
   /// Largest change of a node's friction bound that the law has not seen yet, over the largest bound (theory.md, eq.
   /// 5.11); zero for laws that follow the current pressure.
   Real lag = 0;
+  Real local_error = 0;  ///< of the time scheme in this step (theory.md, eq. 7.8) [length]; 0 without inertia
 };
 
 /// Sums over a run.

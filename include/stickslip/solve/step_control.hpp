@@ -19,6 +19,7 @@ struct MarchOptions {
   Real smallest = 0;            ///< below it a step is given up; 0: 1e-9 of the way
   Index wanted_iterations = 4;  ///< automatic steps grow below this count and shrink above
   Real tolerance = 1e-5;        ///< of Newton's method, see NewtonOptions
+  Real time_tolerance = 0;      ///< with inertia: limit of a step's local error (theory.md, eq. 7.8) [length]; 0: none
   Index max_iterations = 20;    ///< of Newton's method
   bool line_search = true;
   std::vector<Real> stops{};  ///< times that a step must end at
@@ -29,6 +30,7 @@ struct MarchOptions {
     if (steps < 0) throw std::invalid_argument("march: the number of steps must not be negative");
     if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument("march: the tolerance must lie between 0 and 1");
     if (max_iterations < 1) throw std::invalid_argument("march: needs at least one iteration");
+    if (!(time_tolerance >= 0)) throw std::invalid_argument("march: the time tolerance must not be negative");
     if (initial < 0 || largest < 0 || smallest < 0)
       throw std::invalid_argument("march: step sizes must not be negative");
   }
@@ -66,7 +68,8 @@ class StepControl {
     return wanted;
   }
 
-  void accept(Real time, Index iterations) {
+  /// Takes a converged step that ends at `time`; `error` is its local error over the time tolerance, 0 without one.
+  void accept(Real time, Index iterations, Real error = 0) {
     const Real taken = time - time_;
     time_ = time;
     if (options_.steps > 0) {
@@ -83,12 +86,18 @@ class StepControl {
     if (factor < 1) last_shrunk_ = iterations;
     // A step shortened to meet a stop says nothing against the size, unless it was hard even so.
     size_ = factor < 1 ? std::min(size_, taken) * factor : std::max(size_, taken * factor);
+    if (error > 0) size_ = std::min(size_, taken * error_factor(error));
     if (options_.largest > 0) size_ = std::min(size_, options_.largest);
   }
 
+  /// Gives up a step that was to end at `time` and did not converge.
   void reject(Real time) { size_ = 0.4 * (time - time_); }
+  /// Gives up one that converged with too large an error.
+  void reject(Real time, Real error) { size_ = (time - time_) * error_factor(error); }
 
  private:
+  // The error goes with the cube of the size; a part is kept in reserve.
+  static Real error_factor(Real error) { return std::clamp(0.9 / std::cbrt(error), 0.2, 2.0); }
   Real grid(Index k) const {
     return k >= options_.steps ? options_.end : begin_ + (options_.end - begin_) * k / options_.steps;
   }
