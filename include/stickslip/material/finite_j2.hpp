@@ -85,16 +85,9 @@ struct FiniteJ2 {
   /// Elastic energy stored per reference volume at F and the memory `state`.
   template <class S, class Shape>
   S energy(const Tensor<S, Shape>& F, const State<S, Shape>& state) const {
-    using std::log;
     const auto [bulk, shear] = ElasticModuli::from(young, poisson);
     const Spectral<S, Shape> b = spectral(product(product(F, state.Cp_inverse.full()), transpose(F)));
-    S volumetric = S(0), square = S(0);
-    for (int A = 0; A < 3; ++A) {
-      const S e = S(0.5) * log(b.values[A]);
-      volumetric += e;
-      square += e * e;
-    }
-    return S(0.5 * bulk - shear / 3) * volumetric * volumetric + S(shear) * square;
+    return hencky_energy(b, bulk, shear);
   }
 
   /// Plastic work per reference volume spent up to the memory `state`, where the hardening offers its integral.

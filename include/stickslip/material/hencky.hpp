@@ -39,16 +39,9 @@ struct Hencky {
   /// Stored energy per reference volume.
   template <class S, class Shape>
   S energy(const Tensor<S, Shape>& F, const State<S, Shape>&) const {
-    using std::log;
     const auto [bulk, shear] = ElasticModuli::from(young, poisson);
     const Spectral<S, Shape> b = spectral(product(F, transpose(F)));
-    S volumetric = S(0), square = S(0);
-    for (int A = 0; A < 3; ++A) {
-      const S e = S(0.5) * log(b.values[A]);
-      volumetric += e;
-      square += e * e;
-    }
-    return S(0.5 * bulk - shear / 3) * volumetric * volumetric + S(shear) * square;
+    return hencky_energy(b, bulk, shear);
   }
 
   void validate() const { ElasticModuli::validate(young, poisson); }

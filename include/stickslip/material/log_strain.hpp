@@ -4,6 +4,7 @@
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/tensor/spectral.hpp>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace stickslip {
@@ -21,6 +22,19 @@ struct ElasticModuli {
       throw std::invalid_argument("material: Poisson's ratio must lie between -1 and 0.5, both excluded");
   }
 };
+
+/// Hencky's stored energy per reference volume at the elastic b (theory.md, eq. 3.1).
+template <class S, class Shape>
+S hencky_energy(const Spectral<S, Shape>& b, Real bulk, Real shear) {
+  using std::log;
+  S volumetric = S(0), square = S(0);
+  for (int A = 0; A < 3; ++A) {
+    const S e = S(0.5) * log(b.values[A]);
+    volumetric += e;
+    square += e * e;
+  }
+  return S(0.5 * bulk - shear / 3) * volumetric * volumetric + S(shear) * square;
+}
 
 /// Stress of an isotropic law in the frame of its principal logarithmic strains e_A.
 template <class S>

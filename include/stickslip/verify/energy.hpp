@@ -54,7 +54,8 @@ class EnergyLedger {
       reaction[c] = system.dofs().equation(c) == Dofs::constrained ? system.reaction(c) : 0.0;
     Real external = has_inertia<Model> ? du.dot(reaction) : du.dot(mean(reaction_, reaction));
     external += du.dot(mean(external_, system.external()));
-    external += tool_work(step.time - step.dt, step.time, before);
+    const Real by_tools = tool_work(step.time - step.dt, step.time, before);
+    external += by_tools;
 
     // What the body's forces did, against what its energies say they did.
     const Energies old = energies_;
@@ -63,8 +64,8 @@ class EnergyLedger {
     read_state();
     Real algorithmic = du.dot(mean(internal_, system.internal())) - (energies_.elastic - old.elastic) -
                        (energies_.plastic - old.plastic);
-    algorithmic += du.dot(mean(contact_, system.contact())) + tool_work(step.time - step.dt, step.time, before) -
-                   (energies_.penalty - old.penalty) - step.contact.dissipated;
+    algorithmic += du.dot(mean(contact_, system.contact())) + by_tools - (energies_.penalty - old.penalty) -
+                   step.contact.dissipated;
     if constexpr (has_inertia<Model>) {
       const auto& inertia = problem_.inertia();
       Field force = Field::Zero(du.size());
