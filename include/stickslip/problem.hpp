@@ -113,6 +113,7 @@ class Problem {
     if constexpr (has_inertia<Model>) inertia_.emplace(body_, validated(parameters.inertia));
     u_.setZero(body_.mesh().node_count() * dim);
     last_increment_ = u_;
+    if constexpr (has_inertia<Model>) increment_before_ = u_;
   }
   Problem(const Problem&) = delete;
   Problem& operator=(const Problem&) = delete;
@@ -219,8 +220,10 @@ class Problem {
   std::vector<SideValue> driven_, loads_;
   std::unique_ptr<System<Model>> system_;
   Field u_, last_increment_, reactions_;
+  [[no_unique_address]] Only<has_inertia<Model>, Field, Problem> increment_before_;
   Real time_ = 0;
-  Real last_dt_ = 0;  // 0: there is no increment to extrapolate
+  Real last_dt_ = 0;              // 0: there is no increment to extrapolate
+  Real increment_before_dt_ = 0;  // 0: nor a bend
 };
 
 template <class Model>
@@ -268,7 +271,15 @@ void March<Model>::advance() {
     // converged state.
     u = problem_.u_;
     bool extrapolate = problem_.last_dt_ > 0;
-    if (extrapolate) u += dt / problem_.last_dt_ * problem_.last_increment_;
+    if (extrapolate) {
+      const Real h = problem_.last_dt_;
+      u += dt / h * problem_.last_increment_;
+      // Inertia keeps the path smooth, so its bend is worth half a guess; quasi-static paths have kinks.
+      if constexpr (has_inertia<Model>)
+        if (const Real before = problem_.increment_before_dt_; before > 0)
+          u +=
+              0.5 * dt * (dt + h) / (h + before) * (problem_.last_increment_ / h - problem_.increment_before_ / before);
+    }
     if constexpr (has_inertia<Model>) {
       problem_.inertia_->begin(problem_.u_, dt);
       if (!extrapolate) problem_.inertia_->predict(u);
@@ -304,6 +315,10 @@ void March<Model>::advance() {
     if (!newton.trouble) {
       control_.accept(time, newton.iterations, error);
       system.commit();
+      if constexpr (has_inertia<Model>) {
+        problem_.increment_before_.swap(problem_.last_increment_);
+        problem_.increment_before_dt_ = problem_.last_dt_;
+      }
       problem_.last_increment_ = u - problem_.u_;
       problem_.last_dt_ = dt;
       problem_.u_ = u;

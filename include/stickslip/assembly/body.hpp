@@ -59,6 +59,10 @@ class Body {
     for (Index e = 0; e < mesh_.cell_count(); ++e) geometry_.push_back(cell_geometry(e));
     committed_.resize(mesh_.cells.size());
     trial_.resize(mesh_.cells.size());
+    if constexpr (stiff) {
+      dilatations_ = StiffRelations<dofs>(mesh_.cells.size());
+      converged_dilatations_.assign(mesh_.cells.size(), 0.0);
+    }
   }
 
   const MeshType& mesh() const { return mesh_; }
@@ -81,13 +85,31 @@ class Body {
     for (Index e = 0; e < mesh_.cell_count(); ++e) slots_.push_back(matrix.map(equations, components(e)));
   }
 
+  /// Begins an iteration: the stiff relations' values of the converged state become variables of their own.
+  void begin_iteration() {
+    if constexpr (stiff)
+      for (std::size_t e = 0; e < mesh_.cells.size(); ++e) dilatations_[e].value = converged_dilatations_[e];
+  }
+  /// Makes the variables follow the change du of the displacements.
+  void follow(const Field& du) {
+    if constexpr (stiff)
+      for (Index e = 0; e < mesh_.cell_count(); ++e) dilatations_.follow(static_cast<std::size_t>(e), gather(du, e));
+  }
+  void move(Real length) {
+    if constexpr (stiff) dilatations_.move(length);
+  }
+  Real openness() const {
+    if constexpr (stiff) return dilatations_.openness();
+    return 0;
+  }
+
   /// Adds internal forces and tangent at the nodal displacements u. With `driven`, a nodal field of increments still to
-  /// come, the forces are those to first order after it.
-  Trouble assemble(const Field& u, Real dt, const Field* driven, Field& forces, Matrix& matrix) {
+  /// come, the forces are those to first order after it. With `excess`, at the variables of the iteration, and it takes
+  /// the forces that closing their defects adds.
+  Trouble assemble(const Field& u, Real dt, const Field* driven, Field& forces, Field* excess, Matrix& matrix) {
     for (Index e = 0; e < mesh_.cell_count(); ++e) {
       const Vec<Real, dofs> local = gather(u, e);
-      const Cause cause =
-          Element::evaluate(geometry_[static_cast<std::size_t>(e)], material_, local, committed_.of(e), dt, result_);
+      const Cause cause = evaluate(e, local, dt, excess != nullptr);
       if (cause != Cause::none) return {cause, {Place::Kind::element, e}};
       if (driven) {
         const Vec<Real, dofs> increment = gather(*driven, e);
@@ -99,6 +121,11 @@ class Body {
       for (int a = 0; a < Element::nodes; ++a)
         forces.template segment<dim>(cell[static_cast<std::size_t>(a)] * dim) +=
             result_.residual.template segment<dim>(a * dim);
+      if constexpr (stiff)
+        if (excess)
+          for (int a = 0; a < Element::nodes; ++a)
+            excess->template segment<dim>(cell[static_cast<std::size_t>(a)] * dim) +=
+                dilatations_[static_cast<std::size_t>(e)].excess.template segment<dim>(a * dim);
       matrix.add(slots_[static_cast<std::size_t>(e)], result_.tangent);
       trial_.store(e, result_.states);
     }
@@ -106,7 +133,11 @@ class Body {
   }
 
   /// Makes the memory of the last assembly the converged one.
-  void commit() { std::swap(committed_, trial_); }
+  void commit() {
+    std::swap(committed_, trial_);
+    if constexpr (stiff)
+      for (std::size_t e = 0; e < mesh_.cells.size(); ++e) converged_dilatations_[e] = dilatations_[e].value;
+  }
 
   /// Calls visit(cell, point, F, state, weight) for the converged memory: F as the material sees it, weight the
   /// reference volume.
@@ -129,7 +160,17 @@ class Body {
   static constexpr std::size_t bytes_per_point = PointMemory<State, Element::points>::stored ? sizeof(State) : 0;
 
  private:
+  static constexpr bool stiff = has_stiff_relation<Element>;
   using Geometry = typename Element::template Geometry<Kinematics>;
+
+  Cause evaluate(Index e, const Vec<Real, dofs>& local, Real dt, [[maybe_unused]] bool relaxed) {
+    const auto& geometry = geometry_[static_cast<std::size_t>(e)];
+    if constexpr (stiff)
+      return Element::evaluate(geometry, material_, local, committed_.of(e), dt, result_,
+                               relaxed ? &dilatations_[static_cast<std::size_t>(e)] : nullptr);
+    else
+      return Element::evaluate(geometry, material_, local, committed_.of(e), dt, result_);
+  }
 
   Geometry cell_geometry(Index e) const {
     const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
@@ -165,6 +206,8 @@ class Body {
   Material material_;
   std::vector<Geometry> geometry_;
   PointMemory<State, Element::points> committed_, trial_;
+  [[no_unique_address]] Only<stiff, StiffRelations<dofs>, Kinematics> dilatations_;  // of the iteration
+  [[no_unique_address]] Only<stiff, std::vector<Real>, Element> converged_dilatations_;
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dofs))>> slots_;
   ElementResult<Real, dofs, Element::points, State> result_;
 };

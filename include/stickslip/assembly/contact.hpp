@@ -57,6 +57,7 @@ template <int dim>
 struct ContactNodeState {
   Vec<Real, dim> force = Vec<Real, dim>::Zero();  ///< of the node on the tool [force]
   Real gap = 0;                                   ///< [length]
+  Real pressure = 0;                              ///< -t_N [force]
   Real slip = 0;                                  ///< slid distance so far [length]; 0 without friction
   bool touching = false;
 };
@@ -80,7 +81,8 @@ class ContactPair {
         nodes_(mesh.side(contact.side).nodes),
         weight_(nodes_.size(), 0.0),
         states_(nodes_.size()),
-        trial_states_(nodes_.size()) {
+        trial_states_(nodes_.size()),
+        pressures_(nodes_.size()) {
     if (contact_.name.empty()) contact_.name = contact_.side;
     if (contact_.tool.empty())
       throw std::invalid_argument("contact \"" + contact_.name + "\": the tool has no surface");
@@ -132,10 +134,22 @@ class ContactPair {
     return {};
   }
 
-  /// Adds contact forces and their tangent at the nodal displacements u and `time`.
+  /// Begins an iteration: the pressures of the converged state become variables of their own.
+  void begin_iteration() {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_[k].value = states_[k].pressure;
+  }
+  /// Makes the pressures follow the change du of the displacements.
+  void follow(const Field& du) {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_.follow(k, du.template segment<dim>(nodes_[k] * dim));
+  }
+  void move(Real length) { pressures_.move(length); }
+  Real openness() const { return pressures_.openness(); }
+
+  /// Adds contact forces and their tangent at the nodal displacements u and `time`. With `excess`, at the pressures of
+  /// the iteration, and it takes the forces that closing their defects adds.
   template <class MeshType>
   Trouble assemble(const MeshType& mesh, const Field& u, Real time, Real dt, const Field* driven, Field& forces,
-                   Matrix& matrix) {
+                   Field* excess, Matrix& matrix) {
     const rigid::Pose<dim> pose = contact_.motion.at(time);
     summary_ = {};
     trial_force_.setZero();
@@ -147,15 +161,18 @@ class ContactPair {
       if constexpr (remembers) old = committed_[k];
       Vec<Real, dim - 1> slipped = Vec<Real, dim - 1>::Zero();
       if constexpr (has_friction<Model>) slipped[0] = contact_.tool.difference(at.place[0], old.friction.place[0]);
+      const Real pressure = excess ? pressures_[k].value : settled_pressure(contact_.enforcement, weight_[k], at, old);
       const auto node = contact_node<Real, dim>(contact_.enforcement, contact_.friction, Friction{}, weight_[k], at,
-                                                slipped, old, dt);
+                                                slipped, old, pressure, dt);
       if (node.cause != Cause::none) return {node.cause, {Place::Kind::contact_node, n}};
       if constexpr (remembers) trial_[k] = node.memory;
 
       ContactNodeState<dim>& state = trial_states_[k];
       state.gap = at.gap;
       state.touching = node.touching;
+      state.pressure = node.pressure.value;
       state.force.setZero();
+      pressures_[k] = node.pressure;
       if constexpr (has_friction<Model>) {
         state.slip = node.memory.friction.slip;
         summary_.max_slip = std::max(summary_.max_slip, state.slip);
@@ -166,6 +183,11 @@ class ContactPair {
       if (!state.force.allFinite() || !stiffness.allFinite())
         return {Cause::not_finite, {Place::Kind::contact_node, n}};
       forces.template segment<dim>(n * dim) += state.force;
+      if (excess) {
+        pressures_[k].slope = pose.rotation * node.pressure.slope;
+        pressures_[k].excess = pose.rotation * node.pressure.excess;
+        excess->template segment<dim>(n * dim) += pressures_[k].excess;
+      }
       if (driven) forces.template segment<dim>(n * dim) += stiffness * driven->template segment<dim>(n * dim);
       matrix.add(slots_[k], stiffness);
 
@@ -181,8 +203,7 @@ class ContactPair {
   }
 
   /// Energy that penetration and sticking store at the converged state, where the enforcement tells it.
-  Real stored_energy() const
-    requires requires(const Enforcement& e) { e.energy(Real(), Real()); }
+  Real stored_energy() const requires requires(const Enforcement& e) { e.energy(Real(), Real()); }
   {
     Real sum = 0;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
@@ -227,6 +248,7 @@ class ContactPair {
   std::vector<Index> nodes_;
   std::vector<Real> weight_;
   std::vector<ContactNodeState<dim>> states_, trial_states_;
+  StiffRelations<dim> pressures_;  // of the iteration
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dim))>> slots_;

@@ -6,6 +6,7 @@
 #include <stickslip/geometry/surface_point.hpp>
 #include <stickslip/policy/enforcement.hpp>
 #include <stickslip/policy/friction.hpp>
+#include <stickslip/policy/stiff_relation.hpp>
 
 #include <cmath>
 
@@ -44,7 +45,7 @@ template <class S, int dim, class Memory>
 struct NodeContact {
   Vec<S, dim> force = Vec<S, dim>::Zero();      ///< R_C + R_F: the node's force on the tool [force]
   Mat<S, dim> stiffness = Mat<S, dim>::Zero();  ///< its derivative by the node's position
-  S pressure = S(0);                            ///< -t_N [force]
+  StiffRelation<S, dim> pressure{};             ///< -t_N [force]
   S bound = S(0);                               ///< largest friction force at the current pressure [force]
   S lag = S(0);                                 ///< bound at the current pressure less the bound that was used [force]
   S dissipated = S(0);                          ///< work of friction in this step [energy]
@@ -54,16 +55,23 @@ struct NodeContact {
   Memory memory{};
 };
 
-/// Normal contact and friction of one node, in the tool's frame (theory.md, eq. 4.4-4.6 and 5.1-5.9). `slipped` is the
-/// change of the surface coordinates since the converged state.
+/// The pressure that a gap asks for: -t_N where it is closed [force].
+template <class S, int dim, class Enforcement, class Memory>
+S settled_pressure(const Enforcement& enforcement, Real weight, const SurfacePoint<S, dim>& at, const Memory& old) {
+  return value_of(at.gap) <= 0 ? S(-enforcement.normal_force(at.gap, weight, old.enforcement).value) : S(0);
+}
+
+/// Normal contact and friction of one node, in the tool's frame (theory.md, eq. 4.4-4.6, 5.1-5.9 and 6.7). `slipped` is
+/// the change of the surface coordinates since the converged state, `pressure` the one that the iteration has; a node
+/// touches while it is positive, or once the gap is closed.
 template <class S, int dim, class Enforcement, class Law, class Friction>
 NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     const Enforcement& enforcement, const Law& law, Friction, Real weight, const SurfacePoint<S, dim>& at,
-    const Vec<S, dim - 1>& slipped, const NodeMemory<S, dim, Enforcement, Friction>& old, Real dt) {
+    const Vec<S, dim - 1>& slipped, const NodeMemory<S, dim, Enforcement, Friction>& old, const S& pressure, Real dt) {
   using std::sqrt;
   NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> out;
   out.memory.enforcement = old.enforcement;
-  out.touching = value_of(at.gap) <= 0;
+  out.touching = value_of(at.gap) <= 0 || value_of(pressure) > 0;
   if constexpr (Friction::active) {
     out.memory.friction.place = at.place;
     out.memory.friction.slip = old.friction.slip;
@@ -71,15 +79,16 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
   if (!out.touching) return out;
 
   const NormalForce<S> normal = enforcement.normal_force(at.gap, weight, old.enforcement);
-  out.pressure = -normal.value;
-  out.force = at.normal * normal.value;
-  out.stiffness = at.normal * at.normal.transpose() * normal.d_gap + at.hess_gap * normal.value;
+  const S now = value_of(pressure) > 0 ? pressure : S(0);
+  Vec<S, dim> by_pressure = -at.normal;  // d force / d pressure
+  out.force = by_pressure * now;
+  out.stiffness = at.normal * at.normal.transpose() * normal.d_gap - at.hess_gap * now;
 
   if constexpr (Friction::active) {
     using Pressure = typename Friction::Pressure;
     constexpr int m = dim - 1;
     const S stiffness = S(enforcement.stick_stiffness(weight));
-    const S pressure = Pressure::pressure(out.pressure, old.friction.pressure);
+    const S felt = Pressure::pressure(now, old.friction.pressure);
     const Vec<S, m> trial = old.friction.traction + slipped * stiffness;
     // The magnitude of one component is exact; a root would lose the derivative at zero.
     S size;
@@ -89,7 +98,7 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
       size = value_of(trial.squaredNorm()) > 0 ? S(sqrt(trial.squaredNorm())) : S(0);
 
     // Radial return: |t_F| = size - stiffness lambda = bound(pressure, slip + lambda).
-    FrictionBound<S> bound = law.bound(FrictionPoint<S>{pressure, old.friction.slip});
+    FrictionBound<S> bound = law.bound(FrictionPoint<S>{felt, old.friction.slip});
     Vec<S, m> traction = trial;
     Mat<S, m> d_trial = Mat<S, m>::Identity() * stiffness;  // d traction / d place
     Vec<S, m> d_pressure = Vec<S, m>::Zero();               // d traction / d pressure
@@ -99,14 +108,14 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
       if constexpr (Law::depends_on_slip) {
         bool converged = value_of(stiffness) <= 0;
         for (int i = 0; i < 30 && !converged; ++i) {
-          bound = law.bound(FrictionPoint<S>{pressure, S(old.friction.slip + lambda)});
+          bound = law.bound(FrictionPoint<S>{felt, S(old.friction.slip + lambda)});
           const S excess = size - stiffness * lambda - bound.value;
           lambda += excess / (stiffness + bound.d_slip);
           converged = std::abs(value_of(excess)) <= 1e-14 * value_of(size);
         }
         if (!converged) out.cause = Cause::friction_failed;
         // At the slip of the last step, which carries the derivatives of a dual number.
-        bound = law.bound(FrictionPoint<S>{pressure, S(old.friction.slip + lambda)});
+        bound = law.bound(FrictionPoint<S>{felt, S(old.friction.slip + lambda)});
       }
       const Vec<S, m> direction = value_of(size) > 0 ? Vec<S, m>(trial / size) : Vec<S, m>(Vec<S, m>::Zero());
       // A law that loses strength faster than the stiffness can follow has no equilibrium; no stiffness, no slip to
@@ -125,17 +134,23 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     out.force += at.grad_place * traction;
     out.stiffness += at.grad_place * d_trial * at.grad_place.transpose();
     for (int k = 0; k < m; ++k) out.stiffness += at.hess_place[static_cast<std::size_t>(k)] * traction[k];
-    if constexpr (Pressure::follows_current && Law::depends_on_pressure)
+    if constexpr (Pressure::follows_current && Law::depends_on_pressure) {
+      by_pressure += at.grad_place * d_pressure;
       out.stiffness -= at.grad_place * d_pressure * at.normal.transpose() * normal.d_gap;
+    }
 
     out.bound = bound.value;
     if constexpr (!Pressure::follows_current && Law::depends_on_pressure) {
-      out.bound = law.bound(FrictionPoint<S>{out.pressure, out.memory.friction.slip}).value;
+      out.bound = law.bound(FrictionPoint<S>{now, out.memory.friction.slip}).value;
       out.lag = out.bound - bound.value;
     }
     out.memory.friction.traction = traction;
-    out.memory.friction.pressure = Pressure::advance(out.pressure, old.friction.pressure, dt);
+    out.memory.friction.pressure = Pressure::advance(now, old.friction.pressure, dt);
   }
+  out.pressure.value = now;
+  out.pressure.defect = -normal.value - now;
+  out.pressure.slope = at.normal * -normal.d_gap;
+  out.pressure.excess = by_pressure * out.pressure.defect;
   return out;
 }
 

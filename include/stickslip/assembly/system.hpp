@@ -96,8 +96,9 @@ class System {
     if constexpr (with_contact)
       for (auto& pair : pairs) pair.connect(dofs_, matrix_);
     if constexpr (with_inertia) inertia.connect(matrix_);
-    for (Field* f : {&internal_, &contact_, &external_, &balance_}) f->setZero(components);
+    for (Field* f : {&internal_, &contact_, &external_, &balance_, &excess_}) f->setZero(components);
     residual_.setZero(dofs_.unknowns());
+    open_ = residual_;
   }
 
   const Dofs& dofs() const { return dofs_; }
@@ -116,30 +117,57 @@ class System {
     return {};
   }
 
-  /// Evaluates residual and tangent at the displacements u, `time` and the increment dt that leads there. With
-  /// `driven`, the residual is the one to first order after those further increments of constrained components.
-  Trouble evaluate(const Field& u, Real time, Real dt, const Field* driven = nullptr) {
-    if (const Trouble t = assemble(u, time, dt, driven)) return t;
-    if constexpr (with_inertia) {
-      const Stopwatch watch(timings.assembly);
-      static_force_ = balance_;
-      inertia_.apply(u, static_force_, balance_, matrix_);
-    }
-    dofs_.gather(balance_, residual_);
-    norm_ = residual_.norm();
-    if (!std::isfinite(norm_)) return {Cause::not_finite, {}};
+  /// Evaluates residual and tangent at the displacements u, `time` and the increment dt that leads there.
+  Trouble evaluate(const Field& u, Real time, Real dt) { return evaluate(u, time, dt, nullptr, nullptr); }
+
+  /// The same within an iteration, at the variables of the stiff relations: the residual is the one to first order
+  /// after their defects are closed (theory.md, eq. 6.7). With `driven`, also after those further increments of
+  /// constrained components.
+  Trouble iterate(const Field& u, Real time, Real dt, const Field* driven = nullptr) {
+    excess_.setZero();
+    if (const Trouble t = evaluate(u, time, dt, driven, &excess_)) return t;
+    const Real share = static_share();
+    dofs_.gather(excess_, open_);
+    open_ = residual_ - share * open_;
+    const Real imbalance = open_.norm();
+    Real openness = body_.openness();
+    if constexpr (with_contact)
+      for (const auto& pair : pairs_) openness += pair.openness();
+    norm_ = std::max(norm_, imbalance);
+    merit_ = std::hypot(imbalance, share * std::sqrt(openness));
     return {};
   }
+  /// Begins an iteration at the converged state's values of the stiff relations.
+  void begin_iteration() {
+    body_.begin_iteration();
+    if constexpr (with_contact)
+      for (auto& pair : pairs_) pair.begin_iteration();
+  }
+  /// Makes the stiff relations' variables follow the change du of the displacements that a linear solution gave.
+  void follow(const Field& du) {
+    body_.follow(du);
+    if constexpr (with_contact)
+      for (auto& pair : pairs_) pair.follow(du);
+  }
+  /// Goes to a part of the changes of the last `follow`.
+  void move(Real length) {
+    body_.move(length);
+    if constexpr (with_contact)
+      for (auto& pair : pairs_) pair.move(length);
+  }
+  /// What a search along a linear solution must lower: the norm of the imbalance, open defects softened (eq. 6.9).
+  Real merit() const { return merit_; }
 
   /// Gives the body the accelerations that balance the forces at the start of a run.
   Trouble start(const Field& u, Real time) requires with_inertia {
-    if (const Trouble t = assemble(u, time, 0, nullptr)) return t;
+    if (const Trouble t = assemble(u, time, 0, nullptr, nullptr)) return t;
     inertia_.start(dofs_, balance_);
     return {};
   }
 
   /// Residual of the unknowns in the last evaluation [force].
   const Field& residual() const { return residual_; }
+  /// Its norm; within an iteration the larger of those with the stiff relations' defects closed and open.
   Real residual_norm() const { return norm_; }
   /// What the residual is measured against: the largest of the norms of the internal, contact and external nodal
   /// forces, those at supports included (theory.md, eq. 6.2).
@@ -188,19 +216,38 @@ class System {
     std::vector<Real> shares;
   };
 
+  Trouble evaluate(const Field& u, Real time, Real dt, const Field* driven, Field* excess) {
+    if (const Trouble t = assemble(u, time, dt, driven, excess)) return t;
+    if constexpr (with_inertia) {
+      const Stopwatch watch(timings.assembly);
+      static_force_ = balance_;
+      inertia_.apply(u, static_force_, balance_, matrix_);
+    }
+    dofs_.gather(balance_, residual_);
+    norm_ = residual_.norm();
+    if (!std::isfinite(norm_)) return {Cause::not_finite, {}};
+    return {};
+  }
+
+  // Weight of the forces at the end of a step in the balance.
+  Real static_share() const {
+    if constexpr (with_inertia) return 1 - inertia_.scheme().alpha_f;
+    return 1;
+  }
+
   // Internal, contact and external forces by component, their balance without inertia, and its derivative.
-  Trouble assemble(const Field& u, Real time, Real dt, const Field* driven) {
+  Trouble assemble(const Field& u, Real time, Real dt, const Field* driven, Field* excess) {
     internal_.setZero();
     matrix_.set_zero();
     {
       const Stopwatch watch(timings.assembly);
-      if (const Trouble t = body_.assemble(u, dt, driven, internal_, matrix_)) return t;
+      if (const Trouble t = body_.assemble(u, dt, driven, internal_, excess, matrix_)) return t;
     }
     if constexpr (with_contact) {
       const Stopwatch watch(timings.contact);
       contact_.setZero();
       for (auto& pair : pairs_)
-        if (const Trouble t = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, matrix_)) return t;
+        if (const Trouble t = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, excess, matrix_)) return t;
     }
     external_.setZero();
     for (const Load& l : loads_) {
@@ -210,6 +257,7 @@ class System {
       for (std::size_t k = 0; k < l.components.size(); ++k) external_[l.components[k]] += l.shares[k] * value;
     }
     balance_ = internal_ + contact_ - external_;
+    if (excess) balance_ += *excess;
     return {};
   }
 
@@ -221,8 +269,10 @@ class System {
   std::vector<Driven> driven_;
   std::vector<Load> loads_;
   Field internal_, contact_, external_, balance_, residual_;
+  Field excess_;  // forces that closing the stiff relations' defects adds, by component
+  Field open_;    // the residual without them
   [[no_unique_address]] Only<with_inertia, Field, System> static_force_;
-  Real norm_ = 0;
+  Real norm_ = 0, merit_ = 0;
   Real extent_ = 0;  // largest reference coordinate
   Index pattern_revision_ = 1;
 };

@@ -17,6 +17,7 @@ template <class Cell_ = Quad4>
 struct MeanDilatation {
   using Role = role::Element;
   using Cell = Cell_;
+  static constexpr bool stiff_relation = true;  ///< that of ln theta
   static constexpr int dim = Cell::dim, nodes = Cell::nodes, points = Cell::points, dofs = nodes * dim;
 
   template <class Kinematics, class G = Real>
@@ -38,12 +39,13 @@ struct MeanDilatation {
     return F;
   }
 
-  /// Nodal forces and tangent of one element for nodal displacements u.
+  /// Nodal forces and tangent of one element for nodal displacements u. With `dilatation`, ln theta is its value and
+  /// not that of the displacements (eq. 6.8).
   template <class Kinematics, class G, class Material, class State, class S>
   static Cause evaluate(const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry,
                         const Material& material, const Vec<S, dofs>& u, const std::array<State, points>& old, Real dt,
-                        ElementResult<S, dofs, points, State>& out) {
-    using std::pow;
+                        ElementResult<S, dofs, points, State>& out, StiffRelation<S, dofs>* dilatation = nullptr) {
+    using std::exp, std::log, std::pow;
     using Shape = typename Kinematics::Shape;
     constexpr Symmetry symmetry = Material::symmetry;
     constexpr int size = Shape::size;
@@ -66,7 +68,13 @@ struct MeanDilatation {
       mean_div += div[p] * v;
     }
     mean_div /= volume;
-    const S theta = volume / reference;
+    S theta = volume / reference;
+    Vec<S, dofs> by_dilatation = Vec<S, dofs>::Zero();  // d force / d ln theta
+    if (dilatation) {
+      dilatation->defect = log(theta) - dilatation->value;
+      dilatation->slope = mean_div;
+      theta = exp(dilatation->value);
+    }
 
     // Material, forces, and what of the tangent needs no sum over the points.
     out.residual.setZero();
@@ -93,6 +101,7 @@ struct MeanDilatation {
       moduli_F.v = answer.dP_dF * F[p].v;
       const S stretch = squared * F[p].v.dot(moduli_F.v) + trace_tau;
       const Vec<S, dofs> left = stress_force + pull_back(geometry[p], moduli_F) * squared + da * (S(0.5) * stretch);
+      if (dilatation) by_dilatation += (left + da * (S(0.5) * stretch)) * S(Real(1) / 3);
       if constexpr (symmetry == Symmetry::symmetric) {
         add_dyad<symmetry>(left, da, out.tangent);
         add_dyad<symmetry>(da, left, out.tangent);
@@ -127,6 +136,7 @@ struct MeanDilatation {
     const Vec<S, dofs> scaled = mean_div * S(-spherical_sum);
     add_dyad<symmetry>(scaled, mean_div, out.tangent);
     if constexpr (symmetry == Symmetry::symmetric) mirror(out.tangent);
+    if (dilatation) dilatation->excess = by_dilatation * dilatation->defect;
     return Cause::none;
   }
 };

@@ -5,6 +5,7 @@
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/base/role.hpp>
 #include <stickslip/policy/kinematics.hpp>
+#include <stickslip/policy/stiff_relation.hpp>
 
 #include <array>
 #include <concepts>
@@ -50,6 +51,13 @@ struct ElementResult {
   Vec<S, dofs> residual;
   Mat<S, dofs> tangent;
   std::array<State, static_cast<std::size_t>(points)> states;
+};
+
+/// Whether an element has a stiff relation: its `evaluate` then takes a StiffRelation<S, dofs>* after all else, null
+/// for a relation that is closed.
+template <class E>
+inline constexpr bool has_stiff_relation = requires {
+  requires E::stiff_relation;
 };
 
 /// An element: a reference cell with its quadrature and the treatment of the volumetric part. `evaluate`, a template,

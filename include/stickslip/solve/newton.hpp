@@ -14,7 +14,7 @@ namespace stickslip {
 struct NewtonOptions {
   Real tolerance = 1e-5;  ///< on the residual's norm over the force scale (theory.md, eq. 6.2)
   Index max_iterations = 20;
-  bool line_search = true;  ///< shorten steps that do not lower the residual's norm
+  bool line_search = true;  ///< shorten steps that do not lower the merit (theory.md, eq. 6.9)
   Index max_cuts = 5;       ///< of one step by the line search
 };
 
@@ -34,8 +34,8 @@ struct WorkCounts {
   Index line_search_cuts = 0;
 };
 
-/// Newton's method with a line search on the norm of the residual. Work space and the solver's analysis outlast the
-/// calls; nothing is allocated in the loop.
+/// Newton's method on the displacements and the stiff relations' variables, with a line search. Work space and the
+/// solver's analysis outlast the calls; nothing is allocated in the loop.
 template <class Solver>
 class Newton {
  public:
@@ -50,7 +50,8 @@ class Newton {
   NewtonReport solve(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
     NewtonReport report;
     prepare(system);
-    if ((report.trouble = system.evaluate(u, time, dt, driven))) return report;
+    system.begin_iteration();
+    if ((report.trouble = system.iterate(u, time, dt, driven))) return report;
     Index stalls = 0;
     for (;;) {
       const Real norm = system.residual_norm();
@@ -63,22 +64,27 @@ class Newton {
       }
       if ((report.trouble = direction(system))) return report;
       ++report.iterations;
+      change_.setZero();
+      system.dofs().scatter_add(-1, step_, change_);
+      if (driven) change_ += *driven;
+      system.follow(change_);
 
       if (driven) {  // the guess was not on the constraints yet: there is no residual to compare with
-        system.dofs().scatter_add(-1, step_, u);
-        u += *driven;
+        u += change_;
+        system.move(1);
         driven = nullptr;
-        if ((report.trouble = system.evaluate(u, time, dt))) return report;
+        if ((report.trouble = system.iterate(u, time, dt))) return report;
         continue;
       }
       start_ = u;
+      const Real merit = system.merit();
       Real length = 1;
       Trouble trouble;
       for (Index cut = 0;; ++cut) {
-        u = start_;
-        system.dofs().scatter_add(-length, step_, u);
-        trouble = system.evaluate(u, time, dt);
-        const bool better = !trouble && system.residual_norm() < norm;
+        u = start_ + length * change_;
+        system.move(length);
+        trouble = system.iterate(u, time, dt);
+        const bool better = !trouble && system.merit() < merit;
         if (better || (!trouble && !options.line_search)) {
           stalls = 0;
           break;
@@ -90,8 +96,8 @@ class Newton {
         }
         ++report.line_search_cuts;
         ++counts.line_search_cuts;
-        const Real ratio = trouble ? 4.0 : system.residual_norm() / norm;
-        length *= std::clamp(0.5 / ratio, 0.1, 0.5);
+        const Real ratio = trouble ? 4.0 : system.merit() / merit;
+        length *= std::clamp(0.5 / ratio, 0.25, 0.5);
       }
       if (trouble || stalls > 1) {
         report.trouble = trouble ? trouble : Trouble{Cause::stalled, {}};
@@ -108,6 +114,7 @@ class Newton {
     solver_.analyze(system.matrix());
     step_.setZero(system.dofs().unknowns());
     start_.setZero(system.dofs().components());
+    change_ = start_;
     analyzed_ = system.pattern_revision();
   }
 
@@ -128,7 +135,7 @@ class Newton {
   }
 
   Solver solver_;
-  Field step_, start_;
+  Field step_, start_, change_;
   Index analyzed_ = 0;
 };
 

@@ -26,7 +26,8 @@ struct LoneNode {
     const SurfacePoint<S, 2> point = tool.closest(x);
     Vec<S, 1> slipped = Vec<S, 1>::Zero();
     if constexpr (Friction::active) slipped[0] = tool.difference(point.place[0], old.friction.place[0]);
-    return contact_node<S, 2>(enforcement, law, friction, weight, point, slipped, old, dt);
+    return contact_node<S, 2>(enforcement, law, friction, weight, point, slipped, old,
+                              settled_pressure(enforcement, weight, point, old), dt);
   }
 
   /// The memory that all but the last place of a path leave; the first place is where the node starts.

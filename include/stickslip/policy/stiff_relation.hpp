@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/types.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace stickslip {
+
+/// A relation so stiff that a small error of the displacements makes a large force: the pressure of a penalty and the
+/// dilatation of an element. An iteration carries the quantity as a variable of its own, which follows its linear
+/// solutions, and closes the relation only as it converges (theory.md, section 6.4). `n` components of displacement
+/// enter.
+template <class S, int n>
+struct StiffRelation {
+  S value = S(0);                        ///< of the variable
+  S defect = S(0);                       ///< what the displacements ask for, less the value
+  Vec<S, n> slope = Vec<S, n>::Zero();   ///< derivative of what the displacements ask for
+  Vec<S, n> excess = Vec<S, n>::Zero();  ///< forces that closing the defect adds, to first order [force]
+};
+
+/// The stiff relations of one kind in an iteration.
+template <int n>
+class StiffRelations {
+ public:
+  /// Weight of the forces of open defects in the merit of an iterate. They must count, for Newton's direction to be one
+  /// of descent, but not at their stiffness, which is what is to be kept out.
+  static constexpr Real softness = 0.05;
+
+  explicit StiffRelations(std::size_t count = 0) : now_(count), start_(count, 0.0), step_(count, 0.0) {}
+
+  StiffRelation<Real, n>& operator[](std::size_t k) { return now_[k]; }
+  const StiffRelation<Real, n>& operator[](std::size_t k) const { return now_[k]; }
+
+  /// Makes the value follow the change du of its displacements.
+  void follow(std::size_t k, const Vec<Real, n>& du) {
+    start_[k] = now_[k].value;
+    step_[k] = now_[k].defect + now_[k].slope.dot(du);
+  }
+  /// Goes to a part of the changes of the last `follow`.
+  void move(Real length) {
+    for (std::size_t k = 0; k < now_.size(); ++k) now_[k].value = start_[k] + length * step_[k];
+  }
+  /// Share of the open defects in the square of the merit [force^2].
+  Real openness() const {
+    Real sum = 0;
+    for (const auto& r : now_) sum += r.excess.squaredNorm();
+    return softness * softness * sum;
+  }
+
+ private:
+  std::vector<StiffRelation<Real, n>> now_;
+  std::vector<Real> start_, step_;
+};
+
+}  // namespace stickslip
