@@ -28,8 +28,9 @@ auto node(const SurfacePoint<S, 2>& at, double slipped) {
     if constexpr (requires { old.friction.pressure.pressure; }) old.friction.pressure.pressure = S(1e4);
   typename Friction::Law law{};
   if constexpr (requires { law.mu; }) law.mu = 0.15;
-  return contact_node<S, 2>(Penalty{.normal = 1e5, .tangential = 1e4}, law, Friction{}, 1.0, at, Vec<S, 1>(S(slipped)),
-                            old, 0);
+  const Penalty penalty{.normal = 1e5, .tangential = 1e4};
+  return contact_node<S, 2>(penalty, law, Friction{}, 1.0, at, Vec<S, 1>(S(slipped)), old,
+                            settled_pressure(penalty, 1.0, at, old), 0);
 }
 
 template <class Friction>

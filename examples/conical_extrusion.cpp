@@ -69,7 +69,8 @@ int extrude(const examples::Options& options) {
                                           .view = "set xrange [0:120]\nset yrange [0:620]"},
                                .march = {.end = 1,
                                          .initial = 0.1 / travel,
-                                         .largest = 1.6 / travel,
+                                         .largest = 1.7 / travel,
+                                         .lag_tolerance = p.at("lag-tolerance"),
                                          .stops = {44.5 / travel, 89 / travel, 135 / travel}},
                                .travel_mm = [](const Problem<Model>& b) { return travel * b.time(); },
                                .force_N = [](const Problem<Model>& b) { return b.reaction("bottom", 1); },
@@ -86,14 +87,19 @@ int main(int argc, char** argv) {
       .frictions = frictions.list(),
       .solvers = solvers.list(),
       .mu = 0.1,
-      .tolerance = 1e-4,
+      .tolerance = 3e-4,
       .parameters = {{.name = "half-angle", .about = "of the cone, in degrees", .value = 5, .low = 0.5, .high = 30},
                      {.name = "die", .about = "the wall", .value = 0, .names = {"unbounded", "container"}},
                      {.name = "fillet",
                       .about = "radius of the joint of container and cone, in mm",
                       .value = 10,
                       .low = 0.1,
-                      .high = 1000}}};
+                      .high = 1000},
+                     {.name = "lag-tolerance",
+                      .about = "that steps aim at with a lagged law; 0 for none",
+                      .value = 0.06,
+                      .low = 0,
+                      .high = 10}}};
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;

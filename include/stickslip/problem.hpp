@@ -313,7 +313,9 @@ void March<Model>::advance() {
       }
     }
     if (!newton.trouble) {
-      control_.accept(time, newton.iterations, error);
+      const ContactSummary contact = system.contact_summary();
+      const Real lag = contact.bound > 0 ? contact.lag / contact.bound : 0;
+      control_.accept(time, newton.iterations, error, options_.lag_tolerance > 0 ? lag / options_.lag_tolerance : 0);
       system.commit();
       if constexpr (has_inertia<Model>) {
         problem_.increment_before_.swap(problem_.last_increment_);
@@ -331,10 +333,9 @@ void March<Model>::advance() {
                .iterations = newton.iterations,
                .rejected = rejected,
                .residual = newton.residual,
-               .contact = system.contact_summary(),
-               .lag = 0,
+               .contact = contact,
+               .lag = lag,
                .local_error = local_error};
-      step_.lag = step_.contact.max_bound > 0 ? step_.contact.max_lag / step_.contact.max_bound : 0;
       report_.max_penetration = std::max(report_.max_penetration, step_.contact.max_penetration);
       report_.max_slip = std::max(report_.max_slip, step_.contact.max_slip);
       report_.max_lag = std::max(report_.max_lag, step_.lag);

@@ -56,14 +56,14 @@ MeshType distorted(MeshType mesh, Real amount = 0.06) {
 }
 
 /// A block of 10 x 5, its top held along x and pushed down by `press` onto a disc, which from
-/// time 0.3 on is dragged along with the speed `drag`.
+/// time 0.3 on is dragged along with the speed `drag`. `stiffening` multiplies the penalties.
 template <class M>
 std::unique_ptr<Problem<M>> press_and_drag(Real mu, Real press = 0.5, Real drag = 1,
-                                           std::array<Index, 2> cells = {8, 4}) {
+                                           std::array<Index, 2> cells = {8, 4}, Real stiffening = 1) {
   Contact<M> contact{.side = "bottom",
                      .tool = rigid::disc({5, -20}, 20),
                      .motion = [drag](Real t) { return V(drag * std::max(0.0, t - 0.3), 0); },
-                     .enforcement = {.normal = 1e5, .tangential = 2e4},
+                     .enforcement = {.normal = 1e5 * stiffening, .tangential = 2e4 * stiffening},
                      .name = "tool"};
   if constexpr (has_friction<M>) contact.friction = {.mu = mu};
   auto problem = std::make_unique<Problem<M>>(

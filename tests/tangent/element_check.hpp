@@ -34,6 +34,20 @@ void check(const Material& material, const std::vector<std::vector<U>>& paths) {
     CHECK(r.by_duals < 1e-11);
     CHECK(r.by_differences < 1e-8);
     CHECK(r.asymmetry == 0);
+    if constexpr (has_stiff_relation<Element>) {
+      const auto old = element.template preloaded<Real>(path);
+      const Real settled = element.open(path.back(), old, 0).relation.defect;
+      CHECK(element.open(path.back(), old, settled).relation.defect == 0);
+      CHECK(verify::relative_error(element.open(path.back(), old, settled).tangent,
+                                   element.template at<Real>(path.back(), old).tangent) < 1e-13);
+      for (const Real open : {-0.02, 0.03}) {
+        const auto q = verify::relation_report<8>(path.back(), settled + open, 2e-5, 1e-5,
+                                                  [&](const U& u, Real l) { return element.open(u, old, l); });
+        CHECK(q.slope < 1e-8);
+        CHECK(q.excess < 1e-8);
+        CHECK(q.tangent < 1e-8);
+      }
+    }
   }
 }
 

@@ -37,8 +37,8 @@ struct ContactSummary {
   Index sliding = 0;         ///< of them, nodes that slide
   Real max_penetration = 0;  ///< [length]
   Real max_slip = 0;         ///< largest slid distance of a node so far [length]
-  Real max_bound = 0;        ///< largest friction force that a node could bear at its current pressure [force]
-  Real max_lag = 0;          ///< largest change of that which the law has not seen yet [force]
+  Real bound = 0;            ///< sum of the friction forces that the nodes could bear at their current pressures [force]
+  Real lag = 0;              ///< sum of the changes of these that the law has not seen yet [force]
   Real dissipated = 0;       ///< by friction in the step [energy]
 
   void merge(const ContactSummary& other) {
@@ -46,8 +46,8 @@ struct ContactSummary {
     sliding += other.sliding;
     max_penetration = std::max(max_penetration, other.max_penetration);
     max_slip = std::max(max_slip, other.max_slip);
-    max_bound = std::max(max_bound, other.max_bound);
-    max_lag = std::max(max_lag, other.max_lag);
+    bound += other.bound;
+    lag += other.lag;
     dissipated += other.dissipated;
   }
 };
@@ -195,8 +195,8 @@ class ContactPair {
       ++summary_.touching;
       summary_.sliding += node.sliding ? 1 : 0;
       summary_.max_penetration = std::max(summary_.max_penetration, -at.gap);
-      summary_.max_bound = std::max(summary_.max_bound, node.bound);
-      summary_.max_lag = std::max(summary_.max_lag, std::abs(node.lag));
+      summary_.bound += node.bound;
+      summary_.lag += std::abs(node.lag);
       summary_.dissipated += node.dissipated;
     }
     return {};

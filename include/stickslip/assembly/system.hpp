@@ -133,7 +133,7 @@ class System {
     Real openness = body_.openness();
     if constexpr (with_contact)
       for (const auto& pair : pairs_) openness += pair.openness();
-    norm_ = std::max(norm_, imbalance);
+    norm_ = std::max({norm_, imbalance, share * excess_.norm()});
     merit_ = std::hypot(imbalance, share * std::sqrt(openness));
     return {};
   }
@@ -167,7 +167,8 @@ class System {
 
   /// Residual of the unknowns in the last evaluation [force].
   const Field& residual() const { return residual_; }
-  /// Its norm; within an iteration the larger of those with the stiff relations' defects closed and open.
+  /// Its norm; within an iteration the largest of those with the stiff relations' defects closed and open and of the
+  /// forces between the two, at supports as well (theory.md, eq. 6.2).
   Real residual_norm() const { return norm_; }
   /// What the residual is measured against: the largest of the norms of the internal, contact and external nodal
   /// forces, those at supports included (theory.md, eq. 6.2).

@@ -121,6 +121,7 @@ class Newton {
   // step_ = K^-1 R.
   template <class System>
   Trouble direction(System& system) {
+    if (step_.size() == 0) return {};  // nothing to solve for; the stiff relations close all the same
     {
       const Stopwatch watch(system.timings.factorization);
       const Factorization f = solver_.factorize(system.matrix());

@@ -15,8 +15,8 @@ struct StepReport {
   Index rejected = 0;    ///< attempts that were thrown away before it
   Real residual = 0;     ///< over the force scale
   ContactSummary contact{};
-  /// Largest change of a node's friction bound that the law has not seen yet, over the largest bound (theory.md, eq.
-  /// 5.11); zero for laws that follow the current pressure.
+  /// Part of the friction bounds that the law has not seen yet: their changes, summed over the nodes, over their sum
+  /// (theory.md, eq. 5.11); zero for laws that follow the current pressure.
   Real lag = 0;
   Real local_error = 0;  ///< of the time scheme in this step (theory.md, eq. 7.8) [length]; 0 without inertia
 };

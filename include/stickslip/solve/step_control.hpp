@@ -20,6 +20,7 @@ struct MarchOptions {
   Index wanted_iterations = 4;  ///< automatic steps grow below this count and shrink above
   Real tolerance = 1e-5;        ///< of Newton's method, see NewtonOptions
   Real time_tolerance = 0;      ///< with inertia: limit of a step's local error (theory.md, eq. 7.8) [length]; 0: none
+  Real lag_tolerance = 0;       ///< that automatic steps aim at, see StepReport::lag (theory.md, eq. 6.6) [-]; 0: none
   Index max_iterations = 20;    ///< of Newton's method
   bool line_search = true;
   std::vector<Real> stops{};  ///< times that a step must end at
@@ -31,6 +32,7 @@ struct MarchOptions {
     if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument("march: the tolerance must lie between 0 and 1");
     if (max_iterations < 1) throw std::invalid_argument("march: needs at least one iteration");
     if (!(time_tolerance >= 0)) throw std::invalid_argument("march: the time tolerance must not be negative");
+    if (!(lag_tolerance >= 0)) throw std::invalid_argument("march: the lag tolerance must not be negative");
     if (initial < 0 || largest < 0 || smallest < 0)
       throw std::invalid_argument("march: step sizes must not be negative");
   }
@@ -68,8 +70,9 @@ class StepControl {
     return wanted;
   }
 
-  /// Takes a converged step that ends at `time`; `error` is its local error over the time tolerance, 0 without one.
-  void accept(Real time, Index iterations, Real error = 0) {
+  /// Takes a converged step that ends at `time`; `error` is its local error over the time tolerance and `lag` its lag
+  /// over the lag tolerance, 0 without them.
+  void accept(Real time, Index iterations, Real error = 0, Real lag = 0) {
     const Real taken = time - time_;
     time_ = time;
     if (options_.steps > 0) {
@@ -87,6 +90,8 @@ class StepControl {
     // A step shortened to meet a stop says nothing against the size, unless it was hard even so.
     size_ = factor < 1 ? std::min(size_, taken) * factor : std::max(size_, taken * factor);
     if (error > 0) size_ = std::min(size_, taken * error_factor(error));
+    // The lag goes with the size. A first contact lags wholly at any size, so one step says little.
+    if (lag > 0) size_ = std::min(size_, taken * std::clamp(1 / lag, 0.5, 2.0));
     if (options_.largest > 0) size_ = std::min(size_, options_.largest);
   }
 

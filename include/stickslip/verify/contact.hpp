@@ -24,10 +24,13 @@ struct LoneNode {
   template <class S>
   NodeContact<S, 2, Memory<S>> at(const Vec<S, 2>& x, const Memory<S>& old, Real dt = 1) const {
     const SurfacePoint<S, 2> point = tool.closest(x);
-    Vec<S, 1> slipped = Vec<S, 1>::Zero();
-    if constexpr (Friction::active) slipped[0] = tool.difference(point.place[0], old.friction.place[0]);
-    return contact_node<S, 2>(enforcement, law, friction, weight, point, slipped, old,
-                              settled_pressure(enforcement, weight, point, old), dt);
+    return at_pressure(point, settled_pressure(enforcement, weight, point, old), old, dt);
+  }
+
+  /// The same at a pressure that is not the one of the gap.
+  RelationSample<2> open(const Vec<Real, 2>& x, const Memory<Real>& old, Real pressure, Real dt = 1) const {
+    const auto node = at_pressure<Real>(tool.closest(x), pressure, old, dt);
+    return {node.force, node.stiffness, node.pressure};
   }
 
   /// The memory that all but the last place of a path leave; the first place is where the node starts.
@@ -41,6 +44,15 @@ struct LoneNode {
       memory = at<S>(x, memory, dt).memory;
     }
     return memory;
+  }
+
+ private:
+  template <class S>
+  NodeContact<S, 2, Memory<S>> at_pressure(const SurfacePoint<S, 2>& point, const S& pressure, const Memory<S>& old,
+                                           Real dt) const {
+    Vec<S, 1> slipped = Vec<S, 1>::Zero();
+    if constexpr (Friction::active) slipped[0] = tool.difference(point.place[0], old.friction.place[0]);
+    return contact_node<S, 2>(enforcement, law, friction, weight, point, slipped, old, pressure, dt);
   }
 };
 

@@ -50,6 +50,20 @@ struct LoneElement {
     return result;
   }
 
+  /// The same with the element's stiff relation open, its variable at `value`.
+  RelationSample<dofs> open(const Vec<Real, dofs>& u, const Memory<Real>& old, Real value,
+                            Real dt = 1) const requires has_stiff_relation<Element> {
+    const auto geometry = geometry_in<Real>();
+    Result<Real> result;
+    RelationSample<dofs> sample;
+    sample.relation.value = value;
+    if (Element::evaluate(geometry, material, u, old, dt, result, &sample.relation) != Cause::none)
+      result.residual.setConstant(std::numeric_limits<Real>::quiet_NaN());
+    sample.force = result.residual;
+    sample.tangent = result.tangent;
+    return sample;
+  }
+
   /// The memory that all but the last of a path of displacements leave.
   template <class S>
   Memory<S> preloaded(const std::vector<Vec<Real, dofs>>& path, Real dt = 1) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/base/types.hpp>
+#include <stickslip/policy/stiff_relation.hpp>
 #include <stickslip/tensor/dual.hpp>
 
 #include <algorithm>
@@ -69,6 +70,36 @@ Mat<Real, rows, n> slopes(const Vec<Dual<n>, rows>& y) {
   Mat<Real, rows, n> jacobian;
   for (int i = 0; i < rows; ++i) jacobian.row(i) = y[i].slope.matrix().transpose();
   return jacobian;
+}
+
+/// What a part with a stiff relation answers at a place and a value of the relation's variable.
+template <int n>
+struct RelationSample {
+  Vec<Real, n> force;
+  Mat<Real, n> tangent;
+  StiffRelation<Real, n> relation;
+};
+
+/// What the linearisation of a stiff relation is worth where it is open (theory.md, eq. 6.7): relative errors against
+/// central differences.
+struct RelationReport {
+  Real slope = 0;    ///< of what the displacements ask for
+  Real excess = 0;   ///< of the forces that closing the defect adds
+  Real tangent = 0;  ///< of the forces' derivative as the variable follows
+};
+
+/// The relation of at(x, value) -> RelationSample.
+template <int n, class At>
+RelationReport relation_report(const Vec<Real, n>& x, Real value, Real step, Real value_step, At&& at) {
+  const RelationSample<n> now = at(x, value);
+  const Mat<Real, 1, n> slope =
+      differentiate<1, n>(x, step, [&](const Vec<Real, n>& y) { return Vec<Real, 1>(at(y, value).relation.defect); });
+  const Vec<Real, n> by_value =
+      differentiate<n, 1>(Vec<Real, 1>(value), value_step, [&](const Vec<Real, 1>& v) { return at(x, v[0]).force; });
+  const Mat<Real, n> by_place = differentiate<n, n>(x, step, [&](const Vec<Real, n>& y) { return at(y, value).force; });
+  return {relative_error(now.relation.slope.transpose(), slope),
+          relative_error(now.relation.excess, Vec<Real, n>(by_value * now.relation.defect)),
+          relative_error(now.tangent, Mat<Real, n>(by_place + by_value * slope))};
 }
 
 }  // namespace stickslip::verify
