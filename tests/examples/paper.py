@@ -39,6 +39,8 @@ check(abs(forces["coulomb"] - forces["quasi-coulomb"]) < 0.01 * forces["coulomb"
 # The extrusion: slip over 250 mm, penetration below 1/500 of the radius, the lagged force falls behind.
 for law in ("coulomb", "quasi-coulomb"):
     r = run(extrusion, "--friction", law)
+    steps, iterations = (130, 330) if law == "coulomb" else (160, 420)
+    check(r["steps"] <= steps and r["iterations"] <= iterations, (law, r["steps"], r["iterations"]))
     check(r["completed"] and r["max_slip_mm"] > 250 and r["max_penetration_mm"] < 50.8 / 500, (law, r["max_slip_mm"], r["max_penetration_mm"]))
     check(r["kinetic_energy_J"] == 0 and r["friction_work_J"] > 0.05 * r["external_work_J"], r["friction_work_J"])
     books_close(r, 1e-3)
@@ -50,9 +52,10 @@ wider = run(extrusion, "--half-angle", "3")
 check(wider["final_force_N"] < forces["coulomb"], "a slimmer cone takes less force")
 
 # The tube: turned inside out without friction, and the books close whatever the law.
-for law, mu in (("frictionless", "0"), ("quasi-coulomb", "0.15"), ("coulomb", "0.3")):
+for law, mu in (("frictionless", "0"), ("quasi-coulomb", "0.15"), ("coulomb", "0.15"), ("quasi-coulomb", "0.3"), ("coulomb", "0.3")):
     r = run(tube, "--friction", law, "--mu", mu)
     check(r["completed"] and abs(r["history"]["displacement_mm"][-1] - 50) < 1e-9, (law, r["steps"]))
+    check(r["steps"] <= 250 and r["iterations"] <= 900, (law, mu, r["steps"], r["iterations"]))
     check(r["symmetric_storage"] == (law != "coulomb"), r["symmetric_storage"])
     check(r["kinetic_energy_J"] > 0 and r["plastic_work_J"] > 0.3 * r["external_work_J"], r["plastic_work_J"])
     books_close(r, 1e-2)
