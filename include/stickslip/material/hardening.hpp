@@ -8,7 +8,23 @@
 
 namespace stickslip {
 
-/// sigma(p) = yield + modulus p. A modulus of zero is perfect plasticity; a negative one softens.
+/// sigma(p) = yield: no hardening.
+struct PerfectPlasticity {
+  using Role = role::Hardening;
+  Real yield = 0;  ///< flow stress [stress]
+
+  template <class S>
+  FlowStress<S> flow(const S&) const {
+    return {S(yield), S(0)};
+  }
+  /// Plastic work per reference volume up to p: the integral of the flow stress.
+  Real work(Real p) const { return yield * p; }
+  void validate() const {
+    if (!(yield > 0)) throw std::invalid_argument("perfect plasticity: the yield stress must be positive");
+  }
+};
+
+/// sigma(p) = yield + modulus p. A negative modulus softens.
 struct LinearHardening {
   using Role = role::Hardening;
   Real yield = 0;    ///< initial flow stress [stress]
@@ -26,7 +42,7 @@ struct LinearHardening {
   }
 };
 
-/// sigma(p) = strength (offset + p)^exponent (Swift form). With a small offset its start is almost vertical.
+/// Swift's power law, sigma(p) = strength (offset + p)^exponent. With a small offset its start is almost vertical.
 struct PowerHardening {
   using Role = role::Hardening;
   Real strength = 0;  ///< [stress]
@@ -50,6 +66,36 @@ struct PowerHardening {
       throw std::invalid_argument("power hardening: the offset must be positive, or the flow stress starts at zero");
     if (!(exponent > 0 && exponent <= 1))
       throw std::invalid_argument("power hardening: the exponent must lie in (0, 1]");
+  }
+};
+/// The power law by the name of its author (Swift 1952).
+using SwiftHardening = PowerHardening;
+
+/// sigma(p) = saturation - (saturation - yield) exp(-rate p) + modulus p: Voce's hardening towards a saturation stress,
+/// by default without the linear part. A saturation stress below the yield stress softens.
+struct VoceHardening {
+  using Role = role::Hardening;
+  Real yield = 0;       ///< initial flow stress [stress]
+  Real saturation = 0;  ///< what the flow stress tends to without the linear part [stress]
+  Real rate = 0;        ///< 1 / plastic strain over which the distance to saturation falls to 1/e [-]
+  Real modulus = 0;     ///< of the linear part [stress]
+
+  template <class S>
+  FlowStress<S> flow(const S& p) const {
+    using std::expm1;
+    const S gone = expm1(S(-rate) * p);
+    return {S(yield) - (saturation - yield) * gone + p * modulus,
+            S((saturation - yield) * rate) * (S(1) + gone) + S(modulus)};
+  }
+  /// Plastic work per reference volume up to p: the integral of the flow stress.
+  Real work(Real p) const {
+    return p * (saturation + 0.5 * modulus * p) + (saturation - yield) / rate * std::expm1(-rate * p);
+  }
+  void validate() const {
+    if (!(yield > 0)) throw std::invalid_argument("Voce hardening: the yield stress must be positive");
+    if (!(saturation > 0)) throw std::invalid_argument("Voce hardening: the saturation stress must be positive");
+    if (!(rate > 0)) throw std::invalid_argument("Voce hardening: the rate must be positive");
+    if (!std::isfinite(modulus)) throw std::invalid_argument("Voce hardening: the modulus must be finite");
   }
 };
 
