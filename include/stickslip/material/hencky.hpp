@@ -19,11 +19,9 @@ struct Hencky {
 
   template <class S, class Shape>
   MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>&, Real) const {
-    using std::log;
     const auto [bulk, shear] = ElasticModuli::from(young, poisson);
     const Spectral<S, Shape> b = spectral(product(F, transpose(F)));
-    Vec<S, 3> e;
-    for (int A = 0; A < 3; ++A) e[A] = S(0.5) * log(b.values[A]);
+    const Vec<S, 3> e = log_strains(b);
     const S volumetric = e[0] + e[1] + e[2];
     PrincipalStress<S> stress;
     for (int A = 0; A < 3; ++A) {

@@ -13,6 +13,7 @@ namespace stickslip {
 struct ElasticModuli {
   Real bulk, shear;
 
+  Real lame() const { return bulk - 2 * shear / 3; }  ///< the first one of Lame
   static ElasticModuli from(Real young, Real poisson) {
     return {young / (3 * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
   }
@@ -23,17 +24,21 @@ struct ElasticModuli {
   }
 };
 
+/// Principal logarithmic strains e_A = ln(b_A) / 2 (theory.md, eq. 3.2).
+template <class S, class Shape>
+Vec<S, 3> log_strains(const Spectral<S, Shape>& b) {
+  using std::log;
+  Vec<S, 3> e;
+  for (int A = 0; A < 3; ++A) e[A] = S(0.5) * log(b.values[A]);
+  return e;
+}
+
 /// Hencky's stored energy per reference volume at the elastic b (theory.md, eq. 3.1).
 template <class S, class Shape>
 S hencky_energy(const Spectral<S, Shape>& b, Real bulk, Real shear) {
-  using std::log;
-  S volumetric = S(0), square = S(0);
-  for (int A = 0; A < 3; ++A) {
-    const S e = S(0.5) * log(b.values[A]);
-    volumetric += e;
-    square += e * e;
-  }
-  return S(0.5 * bulk - shear / 3) * volumetric * volumetric + S(shear) * square;
+  const Vec<S, 3> e = log_strains(b);
+  const S volumetric = e[0] + e[1] + e[2];
+  return S(0.5 * bulk - shear / 3) * volumetric * volumetric + S(shear) * e.squaredNorm();
 }
 
 /// Stress of an isotropic law in the frame of its principal logarithmic strains e_A.
@@ -43,6 +48,21 @@ struct PrincipalStress {
   Mat<S, 3> dtau_de;  ///< their derivatives by the strains
   S secant;           ///< tau_A - tau_B = secant (e_A - e_B): twice the secant shear modulus
 };
+
+/// Matrix Q that takes dF to dl = dF F^-1 in the frame n_A: dl_CD = n_kC dF_kL N_LD, where n_A and N_A = F^-1 n_A are
+/// the columns of `n` and `N`. Its transpose carries stress and moduli to P and F (theory.md, eq. 3.6).
+template <class S, class Shape>
+Moduli<S, Shape> to_principal_frame(const Tensor<S, Shape>& n, const Tensor<S, Shape>& N) {
+  Moduli<S, Shape> Q = Moduli<S, Shape>::Zero();
+  for (int a = 0; a < Shape::size; ++a) {
+    const auto [C, D] = Shape::pairs[std::size_t(a)];
+    for (int f = 0; f < Shape::size; ++f) {
+      const auto [k, L] = Shape::pairs[std::size_t(f)];
+      if (Shape::couples(k, C) && Shape::couples(L, D)) Q(a, f) = n(k, C) * N(L, D);
+    }
+  }
+  return Q;
+}
 
 /// First Piola-Kirchhoff stress and consistent tangent of a law that is isotropic in the trial elastic strain
 /// e_A = ln(values_A) / 2 of b = F G F^T, G fixed (theory.md, eq. 3.4-3.7). `principal` is the spectral form of b.
@@ -54,15 +74,7 @@ void from_principal(const Spectral<S, Shape>& principal, const Tensor<S, Shape>&
   const Tensor<S, Shape> N = product(F_inverse, n);  // column A: F^-1 n_A
   const auto& b = principal.values;
 
-  // dF in the principal frame: dl_CD = n_kC dF_kL N_LD. Its matrix Q carries stress and moduli to F.
-  Moduli<S, Shape> Q = Moduli<S, Shape>::Zero();
-  for (int a = 0; a < size; ++a) {
-    const auto [C, D] = Shape::pairs[std::size_t(a)];
-    for (int f = 0; f < size; ++f) {
-      const auto [k, L] = Shape::pairs[std::size_t(f)];
-      if (Shape::couples(k, C) && Shape::couples(L, D)) Q(a, f) = n(k, C) * N(L, D);
-    }
-  }
+  const Moduli<S, Shape> Q = to_principal_frame(n, N);
   for (int f = 0; f < size; ++f) {
     S sum = S(0);
     for (int A = 0; A < 3; ++A) sum += stress.tau[A] * Q(Shape::at(A, A), f);
