@@ -18,6 +18,7 @@
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/material/hencky.hpp>
+#include <stickslip/material/hypoelastic_j2.hpp>
 #include <stickslip/material/neo_hookean.hpp>
 #include <stickslip/problem.hpp>
 

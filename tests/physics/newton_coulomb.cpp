@@ -2,6 +2,7 @@
 #include "newton_check.hpp"
 
 #include <stickslip/linear_solver/eigen_lu.hpp>
+#include <stickslip/material/hypoelastic_j2.hpp>
 
 namespace {
 using namespace newton_check;
@@ -10,5 +11,8 @@ TEST_CASE("Newton converges quadratically: Coulomb, elastic") {
 }
 TEST_CASE("Newton converges quadratically: Coulomb, plastic") {
   check<Coulomb, FiniteJ2<PowerHardening>, EigenLu>(0.2);
+}
+TEST_CASE("Newton converges quadratically: Coulomb, hypoelastic-plastic") {
+  check<Coulomb, HypoelasticJ2<PowerHardening>, EigenLu>(0.2);
 }
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
+#include <stickslip/material/hypoelastic_j2.hpp>
 #include <stickslip/verify/element.hpp>
 #include <stickslip/verify/material.hpp>
 
@@ -12,7 +13,8 @@ namespace {
 
 using namespace scene;
 
-TEST_CASE_TEMPLATE("materials: P(Q F) = Q P(F)", M, Hencky, FiniteJ2<LinearHardening>, FiniteJ2<PowerHardening>) {
+TEST_CASE_TEMPLATE("materials: P(Q F) = Q P(F)", M, Hencky, FiniteJ2<LinearHardening>, FiniteJ2<PowerHardening>,
+                   HypoelasticJ2<PowerHardening>) {
   Tensor<Real, Planar> F, G;
   F.v << 1.1, 0.2, -0.1, 0.95, 1.02;
   G.v << 1.5, 0.3, 0.2, 0.8, 0.9;

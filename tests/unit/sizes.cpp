@@ -12,6 +12,8 @@
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/material/hencky.hpp>
+#include <stickslip/material/hypoelastic_j2.hpp>
+#include <stickslip/material/neo_hookean.hpp>
 #include <stickslip/problem.hpp>
 
 #include <doctest/doctest.h>
@@ -45,8 +47,10 @@ using Rough = Model<Hencky, Coulomb, Penalty>;
 using Lagged = Model<Hencky, QuasiCoulomb, Penalty>;
 
 static_assert(Body<Free>::bytes_per_point == 0);
+static_assert(Body<Model<NeoHookean, Frictionless, NoContact>>::bytes_per_point == 0);
 static_assert(Body<Model<J2, Frictionless, NoContact>>::bytes_per_point == 5 * sizeof(Real));
 static_assert(Body<Model<FiniteJ2<PowerHardening>, Frictionless, NoContact>>::bytes_per_point == 5 * sizeof(Real));
+static_assert(Body<Model<HypoelasticJ2<LinearHardening>, Frictionless, NoContact>>::bytes_per_point == 10 * sizeof(Real));
 static_assert(ContactPair<Smooth>::bytes_per_node == 0);
 static_assert(ContactPair<Rough>::bytes_per_node == 3 * sizeof(Real));   // traction, place, slip
 static_assert(ContactPair<Lagged>::bytes_per_node == 4 * sizeof(Real));  // and the pressure
