@@ -4,11 +4,14 @@
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/material/hencky.hpp>
+#include <stickslip/material/hypoelastic_j2.hpp>
+#include <stickslip/material/neo_hookean.hpp>
 
 namespace bench {
 
 using J2Linear = stickslip::FiniteJ2<stickslip::LinearHardening>;
 using J2Power = stickslip::FiniteJ2<stickslip::PowerHardening>;
+using HypoLinear = stickslip::HypoelasticJ2<stickslip::LinearHardening>;
 
 // The sheet of the punch stretching test, in MPa.
 template <class Material>
@@ -17,6 +20,10 @@ Material sheet_metal() {
 }
 template <>
 inline J2Linear sheet_metal() {
+  return {.young = 69004, .poisson = 0.3, .hardening = {.yield = 80, .modulus = 800}};
+}
+template <>
+inline HypoLinear sheet_metal() {
   return {.young = 69004, .poisson = 0.3, .hardening = {.yield = 80, .modulus = 800}};
 }
 template <>

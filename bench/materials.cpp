@@ -33,10 +33,13 @@ void respond(benchmark::State& state, double strain) {
 
 [[maybe_unused]] const benchmark::internal::Benchmark* const materials[] = {
     add("material/Hencky", &respond<Hencky>, bench::elastic),
+    add("material/NeoHookean", &respond<NeoHookean>, bench::elastic),
     add("material/FiniteJ2<LinearHardening>/elastic", &respond<bench::J2Linear>, bench::elastic),
     add("material/FiniteJ2<LinearHardening>/plastic", &respond<bench::J2Linear>, bench::plastic),
     add("material/FiniteJ2<PowerHardening>/elastic", &respond<bench::J2Power>, bench::elastic),
     add("material/FiniteJ2<PowerHardening>/plastic", &respond<bench::J2Power>, bench::plastic),
+    add("material/HypoelasticJ2<LinearHardening>/elastic", &respond<bench::HypoLinear>, bench::elastic),
+    add("material/HypoelasticJ2<LinearHardening>/plastic", &respond<bench::HypoLinear>, bench::plastic),
 };
 
 }  // namespace

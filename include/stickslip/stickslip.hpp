@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-/// Everything that needs Eigen alone. Solvers of other libraries (linear_solver/cholmod.hpp, umfpack.hpp, banded.hpp),
-/// io/ and verify/ are included by those who use them.
+/// Everything that needs Eigen alone. What stands on other libraries (linear_solver/cholmod.hpp, umfpack.hpp,
+/// banded.hpp, material/tabulated_hardening.hpp), io/ and verify/ are included by those who use them.
 
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/mean_dilatation.hpp>

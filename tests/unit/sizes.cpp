@@ -50,7 +50,8 @@ static_assert(Body<Free>::bytes_per_point == 0);
 static_assert(Body<Model<NeoHookean, Frictionless, NoContact>>::bytes_per_point == 0);
 static_assert(Body<Model<J2, Frictionless, NoContact>>::bytes_per_point == 5 * sizeof(Real));
 static_assert(Body<Model<FiniteJ2<PowerHardening>, Frictionless, NoContact>>::bytes_per_point == 5 * sizeof(Real));
-static_assert(Body<Model<HypoelasticJ2<LinearHardening>, Frictionless, NoContact>>::bytes_per_point == 10 * sizeof(Real));
+static_assert(Body<Model<HypoelasticJ2<LinearHardening>, Frictionless, NoContact>>::bytes_per_point ==
+              10 * sizeof(Real));
 static_assert(ContactPair<Smooth>::bytes_per_node == 0);
 static_assert(ContactPair<Rough>::bytes_per_node == 3 * sizeof(Real));   // traction, place, slip
 static_assert(ContactPair<Lagged>::bytes_per_node == 4 * sizeof(Real));  // and the pressure
