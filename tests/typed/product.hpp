@@ -30,7 +30,8 @@ struct Bundle {
 
 using AllKinematics = mp_list<PlaneStrain, Axisymmetric>;
 using Elements = mp_list<MeanDilatation<Quad4>, FullyIntegrated<Quad4>>;
-using Materials = mp_list<Hencky, FiniteJ2<LinearHardening>, FiniteJ2<PowerHardening>>;
+using Materials =
+    mp_list<Hencky, NeoHookean, FiniteJ2<LinearHardening>, FiniteJ2<PowerHardening>, HypoelasticJ2<LinearHardening>>;
 using Frictions = mp_list<Frictionless, Coulomb, QuasiCoulomb>;
 // First those for symmetric systems, then those for all.
 using Solvers = mp_list<EigenLdlt, BandedCholesky, Cholmod, EigenLu, BandedLu, Umfpack>;
