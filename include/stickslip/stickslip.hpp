@@ -5,6 +5,7 @@
 /// banded.hpp, material/tabulated_hardening.hpp), io/ and verify/ are included by those who use them.
 
 #include <stickslip/element/fully_integrated.hpp>
+#include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
 #include <stickslip/enforcement/no_contact.hpp>
 #include <stickslip/enforcement/penalty.hpp>
@@ -14,6 +15,7 @@
 #include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
+#include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/linear_solver/eigen_direct.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>

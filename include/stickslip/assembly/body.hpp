@@ -187,8 +187,8 @@ class Body {
       geometry[p] = point_geometry<Kinematics, typename Element::Cell>(kinematics_, X, rule[p].xi, rule[p].weight);
       if (!(geometry[p].weight > 0) || !std::isfinite(geometry[p].weight))
         throw std::invalid_argument(
-            "body: cell " + std::to_string(e) +
-            " has no positive volume; its nodes must run counter-clockwise, and in axisymmetry at positive radius");
+            "body: cell " + std::to_string(e) + " has no positive volume; its nodes must run counter-clockwise, " +
+            (dim == 2 ? "and in axisymmetry at positive radius" : "seen from above, the lower face before the upper"));
     }
     return geometry;
   }

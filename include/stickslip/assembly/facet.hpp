@@ -3,6 +3,8 @@
 
 #include <stickslip/mesh/mesh.hpp>
 
+#include <algorithm>
+
 namespace stickslip {
 
 /// Reference area of a facet (times thickness, or of the full turn) that `node` carries: the integral of its shape
@@ -16,6 +18,28 @@ Real facet_share(const Mesh<2, nodes_per_cell>& mesh, const Kinematics& kinemati
   const Vec<Real, 2>& there = mesh.nodes[static_cast<std::size_t>(other)];
   const Vec<Real, 2> third = (2 * here + there) / 3;
   return 0.5 * (there - here).norm() * kinematics.measure(third);
+}
+
+/// The same of a four-node facet in space (theory.md, eq. 1.2): exact for flat facets; a warped one counts with its
+/// projection along its mean normal.
+template <class Kinematics, int nodes_per_cell>
+Real facet_share(const Mesh<3, nodes_per_cell>& mesh, const Kinematics& kinematics, const std::array<Index, 4>& facet,
+                 Index node) {
+  using V = Vec<Real, 3>;
+  const auto found = std::find(facet.begin(), facet.end(), node);
+  if (found == facet.end()) return 0;
+  const auto first = static_cast<std::size_t>(found - facet.begin());
+  std::array<V, 4> x;
+  for (std::size_t a = 0; a < 4; ++a) x[a] = mesh.nodes[static_cast<std::size_t>(facet[(first + a) % 4])];
+  const auto cross = [](const V& a, const V& b) {
+    return V(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+  };
+  // x = centre + xi along + eta across + xi eta twist, the node at (-1, -1).
+  const V along = (x[1] - x[0] + x[2] - x[3]) / 4, across = (x[3] - x[0] + x[2] - x[1]) / 4,
+          twist = (x[0] - x[1] + x[2] - x[3]) / 4, centre = (x[0] + x[1] + x[2] + x[3]) / 4;
+  const V normal = cross(along, across), change = cross(along, twist) + cross(twist, across);
+  const Real area = normal.norm();
+  return (area - normal.dot(change) / (3 * area)) * kinematics.measure(centre);
 }
 
 }  // namespace stickslip

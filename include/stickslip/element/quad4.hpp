@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/base/types.hpp>
+#include <stickslip/element/reference_cell.hpp>
 
 #include <array>
 
 namespace stickslip {
-
-/// A quadrature point of a reference cell.
-template <int dim>
-struct QuadraturePoint {
-  Vec<Real, dim> xi;
-  Real weight;
-};
 
 /// Bilinear quadrilateral on [-1, 1]^2, nodes counter-clockwise from (-1, -1), 2 x 2 Gauss points.
 struct Quad4 {
@@ -37,12 +30,7 @@ struct Quad4 {
     }
     return g;
   }
-  static std::array<QuadraturePoint<dim>, points> quadrature() {
-    constexpr Real q = std::numbers::inv_sqrt3_v<Real>;
-    std::array<QuadraturePoint<dim>, points> rule;
-    for (std::size_t a = 0; a < points; ++a) rule[a] = {{q * corner[a][0], q * corner[a][1]}, 1};
-    return rule;
-  }
+  static std::array<QuadraturePoint<dim>, points> quadrature() { return two_point_gauss(corner); }
 };
 
 }  // namespace stickslip

@@ -85,8 +85,10 @@ void write_vtu(const std::filesystem::path& path, const Problem<Model>& problem)
     for (const Index n : cell) connectivity.push_back(n);
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
   }
-  static_assert(Body::MeshType::nodes_per_cell == 4 && dim == 2, "the cell type below is VTK's quadrilateral");
-  const std::vector<std::uint8_t> types(cells, 9);
+  constexpr int nodes_per_cell = Body::MeshType::nodes_per_cell;
+  static_assert((dim == 2 && nodes_per_cell == 4) || (dim == 3 && nodes_per_cell == 8),
+                "the cell types below are VTK's quadrilateral and hexahedron");
+  const std::vector<std::uint8_t> types(cells, dim == 2 ? 9 : 12);
 
   std::vector<Real> stress(6 * cells, 0.0), mises(cells, 0.0), pressure(cells, 0.0),
       plastic_strain(plastic ? cells : 0, 0.0), volume(cells, 0.0);

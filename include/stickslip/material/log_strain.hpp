@@ -92,7 +92,7 @@ void from_principal(const Spectral<S, Shape>& principal, const Tensor<S, Shape>&
     const S t = stress.secant * S(0.5) * log_difference(b[A], b[B]);  // (tau_A - tau_B) / (b_A - b_B)
     aQ.row(a) += Q.row(a) * S(t * b[B]) + Q.row(Shape::at(B, A)) * S(t * b[A] - stress.tau[A]);
   }
-  out.dP_dF.noalias() = Q.transpose() * aQ;
+  out.dP_dF.noalias() = Q.transpose().lazyProduct(aQ);
 }
 
 }  // namespace stickslip

@@ -13,8 +13,9 @@
 
 namespace stickslip {
 
-/// A named part of the boundary: facets as node lists, the body on the left of a walk along them, and their nodes once
-/// each, in the order of first appearance.
+/// A named part of the boundary: facets as node lists, and their nodes once each, in the order of first appearance. In
+/// the plane the body is on the left of a walk along the facets' nodes; in space they run counter-clockwise seen from
+/// outside, so that the right hand's thumb points out of the body.
 template <int dim>
 struct Side {
   static constexpr std::size_t facet_nodes = dim == 2 ? 2 : 4;
@@ -100,6 +101,84 @@ inline Mesh<2, 4> rectangle(const Rectangle& r) {
   add_side("right", ny, [&](Index k) { return node(nx, k); });
   add_side("top", nx, [&](Index k) { return node(nx - k, ny); });
   add_side("left", ny, [&](Index k) { return node(0, ny - k); });
+  return mesh;
+}
+
+/// A structured box: cells[0] x cells[1] x cells[2] hexahedra over [origin, origin + size].
+struct Box {
+  Vec<Real, 3> origin = Vec<Real, 3>::Zero();  ///< [length]
+  Vec<Real, 3> size = Vec<Real, 3>::Ones();    ///< [length]
+  std::array<Index, 3> cells{1, 1, 1};
+};
+
+/// Meshes a box. Sides: left, right (along x), bottom, top (along y), back, front (along z). Nodes are numbered along
+/// the direction with the fewest cells first and along that with the most last, which keeps the band of the matrices
+/// narrow.
+inline Mesh<3, 8> box(const Box& b) {
+  if (b.cells[0] < 1 || b.cells[1] < 1 || b.cells[2] < 1)
+    throw std::invalid_argument("mesh box: needs at least one cell in each direction");
+  if (!(b.size.minCoeff() > 0) || !b.size.allFinite() || !b.origin.allFinite())
+    throw std::invalid_argument("mesh box: the size must be positive and finite");
+  using Place = std::array<Index, 3>;
+  std::array<std::size_t, 3> order{2, 1, 0};  // directions from the innermost to the outermost
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return b.cells[i] < b.cells[j]; });
+  Place stride{};
+  Index count = 1;
+  for (const std::size_t i : order) {
+    stride[i] = count;
+    count *= b.cells[i] + 1;
+  }
+  const auto node = [&](const Place& at) { return at[0] * stride[0] + at[1] * stride[1] + at[2] * stride[2]; };
+  // Calls visit(place) for places[i] places in each direction, in the order of the numbering.
+  const auto walk = [&](const Place& places, auto&& visit) {
+    Place at{};
+    for (at[order[2]] = 0; at[order[2]] < places[order[2]]; ++at[order[2]])
+      for (at[order[1]] = 0; at[order[1]] < places[order[1]]; ++at[order[1]])
+        for (at[order[0]] = 0; at[order[0]] < places[order[0]]; ++at[order[0]]) visit(at);
+  };
+
+  Mesh<3, 8> mesh;
+  mesh.nodes.reserve(static_cast<std::size_t>(count));
+  walk({b.cells[0] + 1, b.cells[1] + 1, b.cells[2] + 1}, [&](const Place& at) {
+    Vec<Real, 3> x;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int c = static_cast<int>(i);
+      x[c] = b.origin[c] + b.size[c] * at[i] / b.cells[i];
+    }
+    mesh.nodes.push_back(x);
+  });
+  walk(b.cells, [&](const Place& at) {
+    const Index n = node(at), x = stride[0], y = stride[1], z = stride[2];
+    mesh.cells.push_back({n, n + x, n + x + y, n + y, n + z, n + x + z, n + x + y + z, n + y + z});
+  });
+
+  // The side where direction `normal` is at its low or high end: its facets run along the two others.
+  const auto add_side = [&](const char* name, std::size_t normal, bool high) {
+    std::size_t u = (normal + 1) % 3, v = (normal + 2) % 3;
+    if (!high) std::swap(u, v);  // seen from outside, v turns left from u
+    Side<3> side;
+    Place places{1, 1, 1};
+    places[u] = b.cells[u];
+    places[v] = b.cells[v];
+    const Index offset = high ? b.cells[normal] * stride[normal] : 0;
+    walk(places, [&](const Place& at) {
+      const Index n = offset + node(at);
+      side.facets.push_back({n, n + stride[u], n + stride[u] + stride[v], n + stride[v]});
+    });
+    std::vector<bool> listed(static_cast<std::size_t>(count), false);
+    for (const auto& facet : side.facets)
+      for (const Index n : facet) {
+        if (!listed[static_cast<std::size_t>(n)]) side.nodes.push_back(n);
+        listed[static_cast<std::size_t>(n)] = true;
+      }
+    mesh.sides[name] = std::move(side);
+  };
+  add_side("left", 0, false);
+  add_side("right", 0, true);
+  add_side("bottom", 1, false);
+  add_side("top", 1, true);
+  add_side("back", 2, false);
+  add_side("front", 2, true);
   return mesh;
 }
 

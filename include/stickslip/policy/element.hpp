@@ -29,15 +29,20 @@ template <class Kinematics, class Cell>
 PointGeometry<Kinematics, Cell::nodes> point_geometry(const Kinematics& kinematics,
                                                       const Mat<Real, Cell::nodes, Cell::dim>& X,
                                                       const Vec<Real, Cell::dim>& xi, Real quadrature_weight) {
-  static_assert(Cell::dim == 2, "the inverse below is that of the plane");
-  const Mat<Real, Cell::nodes, 2> dN_dxi = Cell::gradient(xi);
+  constexpr int dim = Cell::dim;
+  using Shape = typename Kinematics::Shape;
+  const Mat<Real, Cell::nodes, dim> dN_dxi = Cell::gradient(xi);
   const Vec<Real, Cell::nodes> N = Cell::shape(xi);
-  const Mat<Real, 2> jacobian = X.transpose() * dN_dxi;
-  const Real det = jacobian(0, 0) * jacobian(1, 1) - jacobian(0, 1) * jacobian(1, 0);
-  Mat<Real, 2> inverse;
-  inverse << jacobian(1, 1), -jacobian(0, 1), -jacobian(1, 0), jacobian(0, 0);
-  inverse /= det;
-  const Vec<Real, 2> place = X.transpose() * N;
+  const Mat<Real, dim> block = X.transpose() * dN_dxi;
+  auto jacobian = Tensor<Real, Shape>::identity();  // in the plane, the normal stays as it is
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) jacobian(i, j) = block(i, j);
+  const Real det = determinant(jacobian);
+  const Tensor<Real, Shape> adjugate_of_jacobian = adjugate(jacobian);
+  Mat<Real, dim> inverse;
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) inverse(i, j) = adjugate_of_jacobian(i, j) / det;
+  const Vec<Real, dim> place = X.transpose() * N;
   PointGeometry<Kinematics, Cell::nodes> point;
   point.dN_dX = dN_dxi * inverse;
   if constexpr (Kinematics::hoop) point.N_over_R = N / place[0];

@@ -4,6 +4,7 @@
 #include <stickslip/tensor/tensor.hpp>
 
 #include <cmath>
+#include <type_traits>
 
 namespace stickslip {
 
@@ -51,6 +52,60 @@ Spectral<S, Planar> spectral(const Tensor<S, Planar>& t) {
   r.directions(1, 0) = s;
   r.directions(0, 1) = -s;
   r.directions(1, 1) = c;
+  return r;
+}
+
+/// Cyclic Jacobi rotations (theory.md, eq. 3.14): no branch depends on how near the values lie to each other. Equal
+/// values give any axes of their plane, of a diagonal tensor the coordinate axes. A dual number's slopes are exact
+/// where the values differ; where they coincide those of the directions are zero, and those of the values still serve a
+/// function that is symmetric in them.
+template <class S>
+Spectral<S, Spatial> spectral(const Tensor<S, Spatial>& t) {
+  using std::sqrt;
+  Spectral<S, Spatial> r;
+  Vec<S, 3>& d = r.values;
+  Tensor<S, Spatial>& n = r.directions;
+  for (int k = 0; k < 3; ++k) d[k] = t(k, k);
+  Vec<S, 3> shear;  // component k: between the other two axes
+  shear[0] = t(1, 2);
+  shear[1] = t(0, 2);
+  shear[2] = t(0, 1);
+  n = Tensor<S, Spatial>::identity();
+
+  const auto sweep = [&] {
+    for (int k = 2; k >= 0; --k) {
+      const int p = (k + 1) % 3, q = (k + 2) % 3;
+      const S difference = d[q] - d[p], twice = S(2) * shear[k];
+      const S square = difference * difference + twice * twice;
+      if (!(value_of(square) > 0)) continue;
+      const S radius = sqrt(square);
+      const S tangent = twice / (value_of(difference) >= 0 ? S(difference + radius) : S(difference - radius));
+      const S c = S(1) / sqrt(S(1) + tangent * tangent), s = tangent * c;
+      const S moved = tangent * shear[k];
+      d[p] -= moved;
+      d[q] += moved;
+      shear[k] = S(0);
+      const S at_p = shear[q], at_q = shear[p];  // between k and p, k and q
+      shear[q] = c * at_p - s * at_q;
+      shear[p] = s * at_p + c * at_q;
+      for (int i = 0; i < 3; ++i) {
+        const S x = n(i, p), y = n(i, q);
+        n(i, p) = c * x - s * y;
+        n(i, q) = s * x + c * y;
+      }
+    }
+  };
+  const auto diagonal = [&] {
+    bool small = true;
+    for (int k = 0; k < 3; ++k) {
+      const Real off = value_of(shear[k]);
+      small = small && off * off <= 1e-33 * std::abs(value_of(d[(k + 1) % 3]) * value_of(d[(k + 2) % 3]));
+    }
+    return small;
+  };
+  for (int sweeps = 0; sweeps < 16 && !diagonal(); ++sweeps)
+    sweep();                                        // four serve, but for a tensor that is not finite
+  if constexpr (!std::is_same_v<S, Real>) sweep();  // carries the derivatives
   return r;
 }
 

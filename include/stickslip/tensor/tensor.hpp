@@ -21,6 +21,19 @@ struct Planar {
   static constexpr bool couples(int i, int j) { return (i == 2) == (j == 2); }
 };
 
+/// All nine components, row by row: 11, 12, 13, 21, 22, 23, 31, 32, 33.
+struct Spatial {
+  static constexpr int dim = 3;
+  static constexpr int size = 9;
+  static constexpr int symmetric_size = 6;  ///< in the order 11, 22, 33, 12, 23, 13
+  static constexpr int at(int i, int j) { return 3 * i + j; }
+  static constexpr std::array<std::pair<int, int>, size> pairs{
+      {{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, 2}, {2, 0}, {2, 1}, {2, 2}}};
+  static constexpr std::array<std::pair<int, int>, symmetric_size> symmetric_pairs{
+      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+  static constexpr bool couples(int, int) { return true; }
+};
+
 /// Second-order tensor of the non-zero pattern `Shape`; `(i, j)` count from 0 to 2 and must be a pair of the shape.
 template <class S, class Shape>
 struct Tensor {
@@ -75,6 +88,42 @@ Tensor<S, Planar> inverse(const Tensor<S, Planar>& t) {
   r(0, 1) = -t(0, 1) * in_plane;
   r(1, 0) = -t(1, 0) * in_plane;
   r(2, 2) = S(1) / t(2, 2);
+  return r;
+}
+
+/// Transpose of the cofactors: t adjugate(t) = determinant(t) 1.
+template <class S>
+Tensor<S, Planar> adjugate(const Tensor<S, Planar>& t) {
+  Tensor<S, Planar> r;
+  r(0, 0) = t(1, 1) * t(2, 2);
+  r(1, 1) = t(0, 0) * t(2, 2);
+  r(0, 1) = -t(0, 1) * t(2, 2);
+  r(1, 0) = -t(1, 0) * t(2, 2);
+  r(2, 2) = t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0);
+  return r;
+}
+
+template <class S>
+Tensor<S, Spatial> adjugate(const Tensor<S, Spatial>& t) {
+  Tensor<S, Spatial> r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+      r(i, j) = t(a, c) * t(b, d) - t(a, d) * t(b, c);
+    }
+  return r;
+}
+
+template <class S>
+S determinant(const Tensor<S, Spatial>& t) {
+  return t(0, 0) * (t(1, 1) * t(2, 2) - t(1, 2) * t(2, 1)) + t(0, 1) * (t(1, 2) * t(2, 0) - t(1, 0) * t(2, 2)) +
+         t(0, 2) * (t(1, 0) * t(2, 1) - t(1, 1) * t(2, 0));
+}
+
+template <class S>
+Tensor<S, Spatial> inverse(const Tensor<S, Spatial>& t) {
+  Tensor<S, Spatial> r = adjugate(t);
+  r.v *= S(S(1) / determinant(t));
   return r;
 }
 

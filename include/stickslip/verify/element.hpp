@@ -4,7 +4,6 @@
 #include <stickslip/policy/element.hpp>
 #include <stickslip/verify/report.hpp>
 
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -93,22 +92,23 @@ TangentReport element_tangent(const LoneElement<Element, Kinematics, Material>& 
   return {relative_error(tangent, by_duals), relative_error(tangent, by_differences), asymmetry(tangent)};
 }
 
-/// Objectivity of an element of the plane: a superposed rotation by `angle` [rad] turns its nodal forces. Relative
-/// error.
+/// Objectivity of an element: a superposed `rotation` by `angle` [rad] turns its nodal forces. Relative error.
 template <class Element, class Kinematics, class Material>
 Real element_objectivity(const LoneElement<Element, Kinematics, Material>& element,
                          const std::vector<Vec<Real, Element::nodes * Element::dim>>& path, Real angle, Real dt = 1) {
-  static_assert(Element::dim == 2 && !Kinematics::hoop, "a rotation in the section leaves an axisymmetric body's axis");
-  constexpr int n = Element::nodes * 2;
-  Mat<Real, 2> Q;
-  Q << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  static_assert(!Kinematics::hoop, "a rotation in the section leaves an axisymmetric body's axis");
+  constexpr int dim = Element::dim, n = Element::nodes * dim;
+  const auto turn = rotation<typename Kinematics::Shape>(angle);
+  Mat<Real, dim> Q;
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) Q(i, j) = turn(i, j);
   const auto old = element.template preloaded<Real>(path, dt);
   const Vec<Real, n> forces = element.template at<Real>(path.back(), old, dt).residual;
   Vec<Real, n> turned_u, turned_forces;
   for (int a = 0; a < Element::nodes; ++a) {
-    const Vec<Real, 2> X = element.X.row(a).transpose();
-    turned_u.template segment<2>(2 * a) = Q * (X + path.back().template segment<2>(2 * a)) - X;
-    turned_forces.template segment<2>(2 * a) = Q * forces.template segment<2>(2 * a);
+    const Vec<Real, dim> X = element.X.row(a).transpose();
+    turned_u.template segment<dim>(dim * a) = Q * (X + path.back().template segment<dim>(dim * a)) - X;
+    turned_forces.template segment<dim>(dim * a) = Q * forces.template segment<dim>(dim * a);
   }
   return relative_error(element.template at<Real>(turned_u, old, dt).residual, turned_forces);
 }

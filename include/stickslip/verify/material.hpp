@@ -4,7 +4,6 @@
 #include <stickslip/policy/material.hpp>
 #include <stickslip/verify/report.hpp>
 
-#include <cmath>
 #include <vector>
 
 namespace stickslip::verify {
@@ -59,13 +58,10 @@ Real material_memory(const Material& material, const DeformationPath<Shape>& pat
   return relative_error(second.P.v, first.P.v);
 }
 
-/// Objectivity: P(Q F) = Q P(F) for a rotation Q in the plane by `angle` [rad], on the same memory. Relative error.
+/// Objectivity: P(Q F) = Q P(F) for a `rotation` Q by `angle` [rad], on the same memory. Relative error.
 template <class Shape, class Material>
 Real material_objectivity(const Material& material, const DeformationPath<Shape>& path, Real angle, Real dt = 1) {
-  auto Q = Tensor<Real, Shape>::identity();
-  Q(0, 0) = Q(1, 1) = std::cos(angle);
-  Q(1, 0) = std::sin(angle);
-  Q(0, 1) = -Q(1, 0);
+  const Tensor<Real, Shape> Q = rotation<Shape>(angle);
   const auto old = detail::preloaded<Real, Shape>(material, path, dt);
   const auto turned = material.respond(product(Q, path.back()), old, dt);
   return relative_error(turned.P.v, product(Q, material.respond(path.back(), old, dt).P).v);

@@ -4,8 +4,11 @@
 #include <stickslip/base/types.hpp>
 #include <stickslip/policy/stiff_relation.hpp>
 #include <stickslip/tensor/dual.hpp>
+#include <stickslip/tensor/tensor.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace stickslip::verify {
 
@@ -100,6 +103,21 @@ RelationReport relation_report(const Vec<Real, n>& x, Real value, Real step, Rea
   return {relative_error(now.relation.slope.transpose(), slope),
           relative_error(now.relation.excess, Vec<Real, n>(by_value * now.relation.defect)),
           relative_error(now.tangent, Mat<Real, n>(by_place + by_value * slope))};
+}
+
+/// Rotation by `angle` [rad]: in the plane, or in space about (1, 2, 2) / 3.
+template <class Shape>
+Tensor<Real, Shape> rotation(Real angle) {
+  std::array<Real, 3> axis{0, 0, 1};
+  if constexpr (Shape::dim == 3) axis = {Real(1) / 3, Real(2) / 3, Real(2) / 3};
+  auto Q = Tensor<Real, Shape>::identity();
+  Q.v *= std::cos(angle);
+  for (const auto& [i, j] : Shape::pairs) {
+    Q(i, j) += (1 - std::cos(angle)) * axis[std::size_t(i)] * axis[std::size_t(j)];
+    const int k = 3 - i - j;  // the third of two different ones
+    if (i != j) Q(i, j) -= std::sin(angle) * axis[std::size_t(k)] * ((i + 1) % 3 == j ? 1 : -1);
+  }
+  return Q;
 }
 
 }  // namespace stickslip::verify
