@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <stickslip/assembly/system.hpp>
+#include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
+#include <stickslip/enforcement/no_contact.hpp>
 #include <stickslip/enforcement/penalty.hpp>
 #include <stickslip/friction/coulomb.hpp>
+#include <stickslip/friction/frictionless.hpp>
 #include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
+#include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
@@ -82,6 +86,27 @@ TEST_CASE("tangent of a whole system, Quasi-Coulomb: the lower triangle stands f
   const auto plane = check<Model<PlaneStrain, QuasiCoulomb>>(), axi = check<Model<Axisymmetric, QuasiCoulomb>>();
   CHECK(plane.by_differences < 1e-8);
   CHECK(axi.by_differences < 1e-8);
+}
+
+TEST_CASE("tangent of a whole system in space") {
+  struct M : Model<ThreeDimensional, Frictionless> {
+    using Element = MeanDilatation<Hex8>;
+    using Enforcement = NoContact;
+  };
+  Body<M> body(mesh::box({.cells = {2, 1, 2}}), {},
+               {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 40}});
+  System<M>::Pairs pairs{};
+  System<M>::Inertia inertia{};
+  System<M> system(body, pairs, inertia, {{"top", 2, nullptr}}, {{"right", 0, [](Real t) { return 3 * t; }}});
+  Field u = Field::Zero(system.dofs().components());
+  for (const Real frequency : {3.0, 2.0}) {
+    for (Index i = 0; i < u.size(); ++i)
+      u[i] += system.dofs().equation(i) == Dofs::constrained ? 0 : 0.03 * std::sin(frequency * i);
+    CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
+    if (frequency == 3.0) system.commit();
+  }
+  const auto report = verify::system_tangent(system, u, 1, 1, 1e-6);
+  CHECK(report.by_differences < 1e-8);
 }
 
 // The predictor of a driven step: residual to first order after the increments still to come.

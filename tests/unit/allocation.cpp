@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 // Nothing of ours is taken from the heap inside Newton's loop after the first iteration of a run. The linker sends the
 // calls that this program's own object code makes (Eigen's among them) to the counters below.
+#include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
+#include <stickslip/enforcement/no_contact.hpp>
 #include <stickslip/enforcement/penalty.hpp>
 #include <stickslip/friction/coulomb.hpp>
+#include <stickslip/friction/frictionless.hpp>
 #include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
+#include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
@@ -156,6 +160,31 @@ TEST_CASE("Newton's loop allocates nothing after its first iteration") {
   CHECK(p.max_plastic_strain() > 0.01);
   CHECK(ours == 0);
   MESSAGE("the solver's own allocations: ", solvers, " in ", iterations, " iterations");
+}
+
+struct Brick : Model {
+  using Kinematics = ThreeDimensional;
+  using Element = MeanDilatation<Hex8>;
+  using Friction = Frictionless;
+  using Enforcement = NoContact;
+};
+
+TEST_CASE("nor does it in three dimensions") {
+  Problem<Brick> p(
+      {.body = mesh::box({.size = {2, 1, 1}, .cells = {4, 2, 2}}),
+       .material = {
+           .young = 69004, .poisson = 0.3, .hardening = {.strength = 589, .offset = 1e-4, .exponent = 0.216}}});
+  for (const Index i : {0, 1, 2}) p.hold("left", i);
+  p.drive("right", 1, [](Real t) { return -0.4 * t; }).load("right", 2, [](Real t) { return 5 * t; });
+  auto march = p.march({.end = 1, .steps = 10, .tolerance = 1e-8});
+  iterations = ours = solvers = 0;
+  for ([[maybe_unused]] const auto& step : march) {
+  }
+  ledger = Ledger::off;
+  CHECK(bool(march.outcome()));
+  CHECK(iterations > 30);
+  CHECK(p.max_plastic_strain() > 0.01);
+  CHECK(ours == 0);
 }
 
 }  // namespace

@@ -101,6 +101,11 @@ TEST_CASE("meshes") {
   COMPLAINS("size", (void)mesh::rectangle({.size = {0, 1}}));
   COMPLAINS("size", (void)mesh::rectangle({.size = {1, infinity}}));
   COMPLAINS("size", (void)mesh::rectangle({.size = {nan, 1}}));
+  COMPLAINS("cell", (void)mesh::box({.cells = {1, 0, 1}}));
+  COMPLAINS("size", (void)mesh::box({.size = {1, 1, 0}}));
+  COMPLAINS("size", (void)mesh::box({.size = {1, nan, 1}}));
+  COMPLAINS("size", (void)mesh::box({.origin = {infinity, 0, 0}}));
+  COMPLAINS("back, bottom, front, left, right, top", (void)mesh::box({}).side("middle"));
   const auto m = mesh::rectangle({});
   COMPLAINS("\"front\"", (void)m.side("front"));
   COMPLAINS("bottom, left, right, top", (void)m.side("front"));

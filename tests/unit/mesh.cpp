@@ -2,9 +2,11 @@
 #include <stickslip/assembly/dofs.hpp>
 #include <stickslip/assembly/facet.hpp>
 #include <stickslip/element/gradient_operator.hpp>
+#include <stickslip/element/hex8.hpp>
 #include <stickslip/element/quad4.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
+#include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/mesh/mesh.hpp>
 
 #include <doctest/doctest.h>
@@ -102,6 +104,119 @@ TEST_CASE("bilinear shape functions: partition of one, and the rule integrates t
   Real twice = 0;
   for (int a = 0; a < 4; ++a) twice += X(a, 0) * X((a + 1) % 4, 1) - X(a, 1) * X((a + 1) % 4, 0);
   CHECK(sum == doctest::Approx(0.5 * twice).epsilon(1e-14));
+}
+
+using V3 = Vec<Real, 3>;
+V3 cross(const V3& a, const V3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Real volume(const Mesh<3, 8>& m, std::size_t cell) {
+  Mat<Real, 8, 3> X;
+  for (int a = 0; a < 8; ++a) X.row(a) = m.nodes[std::size_t(m.cells[cell][std::size_t(a)])].transpose();
+  Real sum = 0;
+  for (const auto& q : Hex8::quadrature()) sum += point_geometry<ThreeDimensional, Hex8>({}, X, q.xi, q.weight).weight;
+  return sum;
+}
+
+TEST_CASE("box: every node and cell once, cells of positive volume, volumes add up") {
+  for (const auto& cells : {std::array<Index, 3>{3, 2, 4}, {4, 3, 2}, {2, 4, 3}, {1, 1, 1}, {2, 2, 2}, {1, 5, 1}}) {
+    const auto m = mesh::box({.origin = {1, -2, 5}, .size = {3, 4, 2}, .cells = cells});
+    CHECK(m.node_count() == (cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1));
+    CHECK(m.cell_count() == cells[0] * cells[1] * cells[2]);
+    std::set<std::array<Index, 8>> seen;
+    for (std::size_t e = 0; e < m.cells.size(); ++e) {
+      CHECK(volume(m, e) == doctest::Approx(24.0 / m.cell_count()).epsilon(1e-14));
+      seen.insert(m.cells[e]);
+    }
+    CHECK(seen.size() == m.cells.size());
+    std::set<std::array<Real, 3>> places;
+    for (const auto& n : m.nodes) places.insert({n[0], n[1], n[2]});
+    CHECK(places.size() == m.nodes.size());
+  }
+}
+
+TEST_CASE("box: the numbering runs along the direction with the fewest cells") {
+  for (const auto& cells : {std::array<Index, 3>{9, 2, 4}, {2, 4, 9}, {4, 9, 2}}) {
+    const auto m = mesh::box({.cells = cells});
+    Index widest = 0;
+    for (const auto& c : m.cells)
+      widest = std::max(widest, *std::max_element(c.begin(), c.end()) - *std::min_element(c.begin(), c.end()));
+    CHECK(widest == 3 * 5 + 3 + 1);  // a layer of 3 x 5 nodes, a row of 3 and a node on
+  }
+}
+
+TEST_CASE("box: named sides lie on their planes, the normals of their facets point outwards") {
+  const V3 origin(1, -2, 5), size(3, 4, 2);
+  const std::array<Index, 3> cells{3, 2, 4};
+  const auto m = mesh::box({.origin = origin, .size = size, .cells = cells});
+  const auto check = [&](const char* name, int normal, Real sign) {
+    const auto& side = m.side(name);
+    const std::size_t u = std::size_t(normal + 1) % 3, v = std::size_t(normal + 2) % 3;
+    CHECK(side.facets.size() == std::size_t(cells[u] * cells[v]));
+    CHECK(side.nodes.size() == std::size_t((cells[u] + 1) * (cells[v] + 1)));
+    CHECK(std::set<Index>(side.nodes.begin(), side.nodes.end()).size() == side.nodes.size());
+    const Real plane = origin[normal] + (sign > 0 ? size[normal] : 0);
+    for (const Index n : side.nodes) CHECK(m.nodes[std::size_t(n)][normal] == doctest::Approx(plane).epsilon(1e-15));
+    Real total = 0;
+    for (const auto& f : side.facets) {
+      std::array<V3, 4> x;
+      for (std::size_t a = 0; a < 4; ++a) x[a] = m.nodes[std::size_t(f[a])];
+      const V3 twice = cross(x[2] - x[0], x[3] - x[1]);
+      CHECK(twice[normal] * sign == doctest::Approx(twice.norm()).epsilon(1e-14));
+      total += 0.5 * twice.norm();
+    }
+    CHECK(total == doctest::Approx(size.prod() / size[normal]).epsilon(1e-14));
+  };
+  check("left", 0, -1);
+  check("right", 0, 1);
+  check("bottom", 1, -1);
+  check("top", 1, 1);
+  check("back", 2, -1);
+  check("front", 2, 1);
+}
+
+TEST_CASE("the area that a node carries of a facet in space") {
+  Mesh<3, 8> m;
+  const std::array<Index, 4> facet{0, 1, 2, 3};
+  // Flat, no parallel edges, in a tilted plane: the integral of N_a over it, by quadrature.
+  const V3 e(2. / 3, 2. / 3, 1. / 3), f(-2. / 3, 1. / 3, 2. / 3);
+  Mat<Real, 4, 2> X;
+  X << 0.1, 0, 2.3, -0.2, 2.0, 1.7, 0.4, 0.9;
+  for (int a = 0; a < 4; ++a) m.nodes.push_back(V3(1, 2, 3) + X(a, 0) * e + X(a, 1) * f);
+  Vec<Real, 4> expected = Vec<Real, 4>::Zero();
+  for (const auto& q : Quad4::quadrature())
+    expected += Quad4::shape(q.xi) * point_geometry<PlaneStrain, Quad4>({}, X, q.xi, q.weight).weight;
+  for (const Index n : {0, 1, 2, 3})
+    CHECK(facet_share(m, ThreeDimensional{}, facet, n) == doctest::Approx(expected[n]).epsilon(1e-14));
+  CHECK(facet_share(m, ThreeDimensional{}, facet, 7) == 0);
+  CHECK(expected.maxCoeff() > 1.2 * expected.minCoeff());
+  // Warped: the shares are positive and add up to the projection along the mean normal.
+  m.nodes[2] += 0.5 * cross(e, f);
+  Real sum = 0;
+  for (const Index n : {0, 1, 2, 3}) {
+    CHECK(facet_share(m, ThreeDimensional{}, facet, n) > 0);
+    sum += facet_share(m, ThreeDimensional{}, facet, n);
+  }
+  CHECK(sum == doctest::Approx(0.5 * cross(m.nodes[2] - m.nodes[0], m.nodes[3] - m.nodes[1]).norm()).epsilon(1e-14));
+}
+
+TEST_CASE("trilinear shape functions: partition of one, nodal values, and gradients that reproduce a linear field") {
+  Mat<Real, 8, 3> X;
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i)
+      X(a, i) = Hex8::corner[std::size_t(a)][std::size_t(i)] + 0.15 * std::sin(5.0 * a + 2 * i);
+  for (const auto& q : Hex8::quadrature()) {
+    CHECK(Hex8::shape(q.xi).sum() == doctest::Approx(1).epsilon(1e-15));
+    CHECK(Hex8::gradient(q.xi).colwise().sum().norm() < 1e-15);
+    const auto point = point_geometry<ThreeDimensional, Hex8>({}, X, q.xi, q.weight);
+    CHECK(point.weight > 0);
+    CHECK((X.transpose() * point.dN_dX - Mat<Real, 3>::Identity()).norm() < 1e-14);
+  }
+  for (int a = 0; a < 8; ++a) {
+    const auto& c = Hex8::corner[std::size_t(a)];
+    const Vec<Real, 8> N = Hex8::shape({c[0], c[1], c[2]});
+    CHECK(N == Vec<Real, 8>::Unit(a));
+  }
 }
 
 TEST_CASE("dofs number the unknowns and move fields to and fro") {

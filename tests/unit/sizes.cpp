@@ -8,6 +8,7 @@
 #include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
+#include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
@@ -58,6 +59,10 @@ static_assert(ContactPair<Lagged>::bytes_per_node == 4 * sizeof(Real));  // and 
 static_assert(!PointMemory<Hencky::State<Real, Planar>, 4>::stored);
 static_assert(std::is_empty_v<PointMemory<Hencky::State<Real, Planar>, 4>>);
 static_assert(sizeof(PointGeometry<Axisymmetric, 4>) == sizeof(PointGeometry<PlaneStrain, 4>) + 4 * sizeof(Real));
+
+// In space: the gradients and the weight of a point, six components of the plastic memory and the strain.
+static_assert(sizeof(PointGeometry<ThreeDimensional, 8>) <= 26 * sizeof(Real));
+static_assert(sizeof(J2::State<Real, Spatial>) == 7 * sizeof(Real));
 
 // Without contact there is no list of pairs.
 static_assert(std::is_empty_v<System<Free>::Pairs>);

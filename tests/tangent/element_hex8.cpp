@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <stickslip/element/fully_integrated.hpp>
+#include <stickslip/element/hex8.hpp>
+#include <stickslip/element/mean_dilatation.hpp>
+#include <stickslip/kinematics/three_dimensional.hpp>
+#include <stickslip/material/finite_j2.hpp>
+#include <stickslip/material/hardening.hpp>
+#include <stickslip/material/hencky.hpp>
+#include <stickslip/verify/element.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using namespace stickslip;
+using U = Vec<Real, 24>;
+using Path = std::vector<U>;
+using Mean = MeanDilatation<Hex8>;
+using Plain = FullyIntegrated<Hex8>;
+template <class Element, class Material>
+using Lone = verify::LoneElement<Element, ThreeDimensional, Material>;
+
+const Hencky hencky{.young = 200e3, .poisson = 0.3};
+const FiniteJ2<PowerHardening> power{
+    .young = 69004, .poisson = 0.3, .hardening = {.strength = 589, .offset = 1e-4, .exponent = 0.216}};
+
+// A brick with uneven corners; no two faces are parallel.
+Mat<Real, 8, 3> distorted() {
+  Mat<Real, 8, 3> X;
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i)
+      X(a, i) = 0.6 * Hex8::corner[std::size_t(a)][std::size_t(i)] + 0.1 * std::sin(5.0 * a + 2 * i);
+  return X;
+}
+U displacement(Real scale) {
+  U u;
+  for (int k = 0; k < 24; ++k) u[k] = 0.15 * std::cos(2.7 * k + 0.3);
+  return scale * u;
+}
+
+template <class Element, class Material>
+void check(const Material& material, const Path& path) {
+  const Lone<Element, Material> element{.material = material, .X = distorted()};
+  const auto r = verify::element_tangent(element, path, 1, 2e-5);
+  CHECK(r.by_duals < 1e-11);
+  CHECK(r.by_differences < 1e-8);
+  CHECK(r.asymmetry == 0);
+  for (const Real angle : {0.7, pi / 2, 2.9}) CHECK(verify::element_objectivity(element, path, angle) < 1e-11);
+}
+
+TEST_CASE_TEMPLATE("tangent and objectivity of a hexahedron of Hencky's law", Element, Mean, Plain) {
+  for (const Real scale : {1.0, -0.4}) check<Element>(hencky, {displacement(scale)});
+}
+
+TEST_CASE_TEMPLATE("tangent and objectivity of a hexahedron in plastic flow", Element, Mean, Plain) {
+  const Path path{displacement(0.2), displacement(-0.3), displacement(0.9)};
+  const Lone<Element, FiniteJ2<PowerHardening>> element{.material = power, .X = distorted()};
+  const auto old = element.template preloaded<Real>(path);
+  const auto now = element.template at<Real>(path.back(), old).states;
+  for (std::size_t p = 0; p < now.size(); ++p) CHECK(now[p].plastic_strain > old[p].plastic_strain);
+  check<Element>(power, path);
+}
+
+TEST_CASE_TEMPLATE("a hexahedron's forces derive from the stored energy", Element, Mean, Plain) {
+  const Lone<Element, Hencky> element{.material = hencky, .X = distorted()};
+  const U u = displacement(1);
+  const Vec<Dual<24>, 24> dual_u = verify::seeded<24>(u);
+  const auto F = Element::template deformation<ThreeDimensional, Dual<24>, Dual<24>>(
+      element.template geometry_in<Dual<24>>(), dual_u);
+  const auto geometry = element.template geometry_in<Real>();
+  Dual<24> energy(0);
+  for (std::size_t p = 0; p < 8; ++p) energy += hencky.energy(F[p], {}) * geometry[p].weight;
+  const U slope = energy.slope.matrix();
+  CHECK(verify::relative_error(element.template at<Real>(u, {}).residual, slope) < 1e-12);
+}
+
+TEST_CASE("one dilatation in the whole hexahedron of mean dilatation, several in the plain one") {
+  const auto spread = [](auto tag) {
+    using Element = decltype(tag);
+    const Lone<Element, Hencky> element{.material = hencky, .X = distorted()};
+    const auto F = Element::template deformation<ThreeDimensional, Real, Real>(element.template geometry_in<Real>(),
+                                                                               displacement(1));
+    Real low = 1e300, high = -1e300;
+    for (const auto& f : F) {
+      low = std::min(low, determinant(f));
+      high = std::max(high, determinant(f));
+    }
+    return high - low;
+  };
+  CHECK(spread(Mean{}) < 1e-14);
+  CHECK(spread(Plain{}) > 0.1);
+}
+
+TEST_CASE_TEMPLATE("a hexahedron that turns inside out says so", Element, Mean, Plain) {
+  const Lone<Element, Hencky> element{.material = hencky, .X = distorted()};
+  U u = U::Zero();
+  u[18] = -3;
+  CHECK(std::isnan(element.template at<Real>(u, {}).residual[0]));
+}
+
+}  // namespace
