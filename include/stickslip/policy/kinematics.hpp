@@ -8,7 +8,7 @@
 
 namespace stickslip {
 
-/// How the section's displacement becomes a three-dimensional deformation gradient, and what volume stands behind it.
+/// How the displacement, of a section or in space, becomes a deformation gradient, and what volume stands behind it.
 /// docs/policies.md, section Kinematics.
 template <class K>
 concept KinematicsPolicy = requires(const K& kinematics, const Vec<Real, K::dim>& X) {

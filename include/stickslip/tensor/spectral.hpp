@@ -55,7 +55,7 @@ Spectral<S, Planar> spectral(const Tensor<S, Planar>& t) {
   return r;
 }
 
-/// Cyclic Jacobi rotations (theory.md, eq. 3.14): no branch depends on how near the values lie to each other. Equal
+/// Cyclic Jacobi rotations (theory.md, eq. 3.26): no branch depends on how near the values lie to each other. Equal
 /// values give any axes of their plane, of a diagonal tensor the coordinate axes. A dual number's slopes are exact
 /// where the values differ; where they coincide those of the directions are zero, and those of the values still serve a
 /// function that is symmetric in them.
@@ -103,8 +103,8 @@ Spectral<S, Spatial> spectral(const Tensor<S, Spatial>& t) {
     }
     return small;
   };
-  for (int sweeps = 0; sweeps < 16 && !diagonal(); ++sweeps)
-    sweep();                                        // four serve, but for a tensor that is not finite
+  // Four sweeps serve; the bound is for a tensor that is not finite.
+  for (int sweeps = 0; sweeps < 16 && !diagonal(); ++sweeps) sweep();
   if constexpr (!std::is_same_v<S, Real>) sweep();  // carries the derivatives
   return r;
 }
