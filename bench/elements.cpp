@@ -3,33 +3,41 @@
 #include "report.hpp"
 
 #include <stickslip/element/fully_integrated.hpp>
+#include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
+#include <stickslip/kinematics/three_dimensional.hpp>
 
 namespace {
 
 using namespace stickslip;
 using bench::add;
 
-/// An element, somewhat distorted, with displacements of the given strain.
+/// An element, somewhat distorted, with displacements of the given strain; a hexahedron is a layer of the
+/// quadrilateral.
 template <class Kinematics, class Element, class Material, class S>
 struct One {
+  static constexpr int dim = Element::dim, nodes = Element::nodes, points = Element::points, dofs = nodes * dim;
   using State = typename Material::template State<S, typename Kinematics::Shape>;
   typename Element::template Geometry<Kinematics> geometry;
   Material material = bench::sheet_metal<Material>();
-  Vec<S, 8> u;
-  std::array<State, 4> old{};
-  ElementResult<S, 8, 4, State> out;
+  Vec<S, dofs> u;
+  std::array<State, points> old{};
+  ElementResult<S, dofs, points, State> out;
 
   explicit One(double strain) {
-    Mat<Real, 4, 2> X;
-    X << 10, 0, 11, 0.1, 11.2, 0.9, 9.9, 1;
+    const double corner[4][2] = {{10, 0}, {11, 0.1}, {11.2, 0.9}, {9.9, 1}};
+    const double direction[4][2] = {{0.1, 0}, {1, -0.1}, {0.9, -0.8}, {0, -1}};
+    Mat<Real, nodes, dim> X;
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < dim; ++i) {
+        X(a, i) = i < 2 ? corner[a % 4][i] : a / 4 + 0.1 * corner[a % 4][0];
+        u[a * dim + i] = S(strain * (i < 2 ? direction[a % 4][i] : 0.3 * direction[a % 4][0] - 0.4 * (a / 4)));
+      }
     const auto rule = Element::Cell::quadrature();
     for (std::size_t p = 0; p < rule.size(); ++p)
       geometry[p] = point_geometry<Kinematics, typename Element::Cell>(Kinematics{}, X, rule[p].xi, rule[p].weight);
-    const double direction[] = {0.1, 0, 1, -0.1, 0.9, -0.8, 0, -1};
-    for (int i = 0; i < 8; ++i) u[i] = S(strain * direction[i]);
   }
   Cause evaluate() { return Element::evaluate(geometry, material, u, old, 0, out); }
 };
@@ -50,6 +58,8 @@ void evaluate(benchmark::State& state, double strain) {
 
 using Q1P0 = MeanDilatation<Quad4>;
 using Q1 = FullyIntegrated<Quad4>;
+using H1P0 = MeanDilatation<Hex8>;
+using H1 = FullyIntegrated<Hex8>;
 [[maybe_unused]] const benchmark::internal::Benchmark* const elements[] = {
     add("element/PlaneStrain/FullyIntegrated/Hencky", &evaluate<PlaneStrain, Q1, Hencky>, bench::elastic),
     add("element/Axisymmetric/FullyIntegrated/Hencky", &evaluate<Axisymmetric, Q1, Hencky>, bench::elastic),
@@ -59,6 +69,10 @@ using Q1 = FullyIntegrated<Quad4>;
     add("element/Axisymmetric/MeanDilatation/J2Power/elastic", &evaluate<Axisymmetric, Q1P0, bench::J2Power>,
         bench::elastic),
     add("element/Axisymmetric/MeanDilatation/J2Power/plastic", &evaluate<Axisymmetric, Q1P0, bench::J2Power>,
+        bench::plastic),
+    add("element/ThreeDimensional/FullyIntegrated/Hencky", &evaluate<ThreeDimensional, H1, Hencky>, bench::elastic),
+    add("element/ThreeDimensional/MeanDilatation/Hencky", &evaluate<ThreeDimensional, H1P0, Hencky>, bench::elastic),
+    add("element/ThreeDimensional/MeanDilatation/J2Power/plastic", &evaluate<ThreeDimensional, H1P0, bench::J2Power>,
         bench::plastic),
 };
 
