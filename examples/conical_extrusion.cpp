@@ -69,7 +69,7 @@ int extrude(const examples::Options& options) {
                                           .view = "set xrange [0:120]\nset yrange [0:620]"},
                                .march = {.end = 1,
                                          .initial = 0.1 / travel,
-                                         .largest = 1.7 / travel,
+                                         .largest = 1.6 / travel,
                                          .lag_tolerance = p.at("lag-tolerance"),
                                          .stops = {44.5 / travel, 89 / travel, 135 / travel}},
                                .travel_mm = [](const Problem<Model>& b) { return travel * b.time(); },
@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
       .frictions = frictions.list(),
       .solvers = solvers.list(),
       .mu = 0.1,
-      .tolerance = 3e-4,
+      .tolerance = 1e-4,
       .parameters = {{.name = "half-angle", .about = "of the cone, in degrees", .value = 5, .low = 0.5, .high = 30},
                      {.name = "die", .about = "the wall", .value = 0, .names = {"unbounded", "container"}},
                      {.name = "fillet",
@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
                       .high = 1000},
                      {.name = "lag-tolerance",
                       .about = "that steps aim at with a lagged law; 0 for none",
-                      .value = 0.06,
+                      .value = 0,
                       .low = 0,
                       .high = 10}}};
   return examples::guarded(program.name, [&] {

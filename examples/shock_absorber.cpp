@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
       .frictions = frictions.list(),
       .solvers = solvers.list(),
       .mu = 0.15,
-      .tolerance = 5e-3,
+      .tolerance = 1e-2,
       .parameters = {
           {.name = "arc-angle", .about = "of the die's circle, in degrees", .value = 90, .low = 30, .high = 180},
           {.name = "yield-scale",
