@@ -7,9 +7,9 @@ struct Smoothed {
   template <class S>
   struct Memory {};
 #ifdef CONTROL
-  static Real pressure(const Real&, const Memory<Real>&);
+  static Real pressure(const Real&, const Memory<Real>&, Real);
 #else
-  static float pressure(const Real&, const Memory<Real>&);
+  static float pressure(const Real&, const Memory<Real>&, Real);
 #endif
   static Memory<Real> advance(const Real&, const Memory<Real>&, Real);
 };

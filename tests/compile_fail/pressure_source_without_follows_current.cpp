@@ -8,7 +8,7 @@ struct Smoothed {
 #endif
   template <class S>
   struct Memory {};
-  static Real pressure(const Real&, const Memory<Real>&);
+  static Real pressure(const Real&, const Memory<Real>&, Real);
   static Memory<Real> advance(const Real&, const Memory<Real>&, Real);
 };
 struct Bundle : Sound {

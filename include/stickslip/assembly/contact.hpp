@@ -37,9 +37,9 @@ struct ContactSummary {
   Index sliding = 0;         ///< of them, nodes that slide
   Real max_penetration = 0;  ///< [length]
   Real max_slip = 0;         ///< largest slid distance of a node so far [length]
-  Real bound = 0;            ///< sum of the friction forces that the nodes could bear at their current pressures [force]
-  Real lag = 0;              ///< sum of the changes of these that the law has not seen yet [force]
-  Real dissipated = 0;       ///< by friction in the step [energy]
+  Real bound = 0;       ///< sum of the friction forces that the nodes could bear at their current pressures [force]
+  Real lag = 0;         ///< sum of the changes of these that the law has not seen yet [force]
+  Real dissipated = 0;  ///< by friction in the step [energy]
 
   void merge(const ContactSummary& other) {
     touching += other.touching;
@@ -72,6 +72,13 @@ class ContactPair {
   using Memory = NodeMemory<Real, dim, Enforcement, Friction>;
   using Matrix = SparseMatrix<matrix_storage<Model>>;
   static constexpr bool remembers = !std::is_empty_v<Memory>;
+  /// Whether the friction law looks at the area that a node carries.
+  static constexpr bool takes_area = [] {
+    if constexpr (has_friction<Model>)
+      return depends_on_area<typename Friction::Law>();
+    else
+      return false;
+  }();
   /// Bytes that a contact node keeps for one state (there are two: converged and trial).
   static constexpr std::size_t bytes_per_node = remembers ? sizeof(Memory) : 0;
 
@@ -163,7 +170,7 @@ class ContactPair {
       if constexpr (has_friction<Model>) slipped[0] = contact_.tool.difference(at.place[0], old.friction.place[0]);
       const Real pressure = excess ? pressures_[k].value : settled_pressure(contact_.enforcement, weight_[k], at, old);
       const auto node = contact_node<Real, dim>(contact_.enforcement, contact_.friction, Friction{}, weight_[k], at,
-                                                slipped, old, pressure, dt);
+                                                slipped, old, pressure, dt, area(k));
       if (node.cause != Cause::none) return {node.cause, {Place::Kind::contact_node, n}};
       if constexpr (remembers) trial_[k] = node.memory;
 
@@ -230,7 +237,15 @@ class ContactPair {
     return contact_.tool.closest(Vec<Real, dim>(pose.rotation.transpose() * (x - pose.translation)));
   }
 
-  // The measure behind one unit of nodal stiffness.
+  // Reference area that a node carries, where the friction law asks for it.
+  Real area([[maybe_unused]] std::size_t k) const {
+    if constexpr (takes_area)
+      return areas_[k];
+    else
+      return 0;
+  }
+
+  // The measure behind one unit of nodal stiffness, and the areas.
   template <class MeshType>
   void weigh(const MeshType& mesh, const typename Model::Kinematics& kinematics) {
     const PenaltyPer per = contact_.enforcement.per;
@@ -238,15 +253,22 @@ class ContactPair {
     if (per == PenaltyPer::unit_depth)
       std::fill(weight_.begin(), weight_.end(),
                 Model::Kinematics::hoop ? 2 * pi : kinematics.measure(mesh.nodes[static_cast<std::size_t>(nodes_[0])]));
-    if (per == PenaltyPer::area)
+    const auto add_areas = [&](std::vector<Real>& sums) {
       for (std::size_t k = 0; k < nodes_.size(); ++k)
         for (const auto& facet : mesh.side(contact_.side).facets)
-          weight_[k] += facet_share(mesh, kinematics, facet, nodes_[k]);
+          sums[k] += facet_share(mesh, kinematics, facet, nodes_[k]);
+    };
+    if (per == PenaltyPer::area) add_areas(weight_);
+    if constexpr (takes_area) {
+      areas_.assign(nodes_.size(), 0.0);
+      add_areas(areas_);
+    }
   }
 
   Contact<Model> contact_;
   std::vector<Index> nodes_;
   std::vector<Real> weight_;
+  [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
   std::vector<ContactNodeState<dim>> states_, trial_states_;
   StiffRelations<dim> pressures_;  // of the iteration
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;

@@ -30,4 +30,7 @@ struct Coulomb {
 /// The paper's law: Coulomb's bound at the last converged normal force.
 using QuasiCoulomb = Quasi<Coulomb>;
 
+/// Coulomb's bound at the normal force extrapolated from the last two converged ones.
+using ExtrapolatedCoulomb = WithPressure<Coulomb, Extrapolated>;
+
 }  // namespace stickslip

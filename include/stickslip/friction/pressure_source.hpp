@@ -12,7 +12,7 @@ struct CurrentPressure {
   template <class S>
   struct Memory {};
   template <class S>
-  static S pressure(const S& current, const Memory<S>&) {
+  static S pressure(const S& current, const Memory<S>&, Real) {
     return current;
   }
   template <class S>
@@ -31,12 +31,35 @@ struct LastConverged {
     S pressure = S(0);  ///< [force]
   };
   template <class S>
-  static S pressure(const S&, const Memory<S>& memory) {
+  static S pressure(const S&, const Memory<S>& memory, Real) {
     return memory.pressure;
   }
   template <class S>
   static Memory<S> advance(const S& current, const Memory<S>&, Real) {
     return {current};
+  }
+};
+
+/// The normal force that the last two converged steps foretell, linear in time and between zero and twice the last one
+/// (theory.md, eq. 5.25): a symmetric tangent, and a bound that lags at second order in the step. A node that one step
+/// alone knows of has no trend: after its first contact the last converged force is taken.
+struct Extrapolated {
+  using Role = role::PressureSource;
+  static constexpr bool follows_current = false;
+  template <class S>
+  struct Memory {
+    S pressure = S(0);  ///< [force]
+    S trend = S(0);     ///< (p_n - p_{n-1}) / dt_n [force / time]
+  };
+  template <class S>
+  static S pressure(const S&, const Memory<S>& memory, Real dt) {
+    const S ahead = memory.pressure + memory.trend * dt, most = memory.pressure * 2;
+    return value_of(ahead) < 0 ? S(0) : value_of(ahead) < value_of(most) ? ahead : most;
+  }
+  template <class S>
+  static Memory<S> advance(const S& current, const Memory<S>& memory, Real dt) {
+    const bool known = value_of(memory.pressure) > 0 && dt > 0;
+    return {current, known ? S((current - memory.pressure) / dt) : S(0)};
   }
 };
 

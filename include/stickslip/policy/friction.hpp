@@ -10,20 +10,41 @@
 
 namespace stickslip {
 
-/// What a friction bound may look at.
+/// What a friction bound may look at. Area and rate are filled in for laws that ask for them, by `depends_on_area` and
+/// `depends_on_rate`.
 template <class S>
 struct FrictionPoint {
-  S pressure;  ///< normal force of the node, positive in compression, as the pressure source gives it [force]
-  S slip;      ///< slid distance accumulated so far, the current step's included [length]
+  S pressure;     ///< normal force of the node, positive in compression, as the pressure source gives it [force]
+  S slip;         ///< slid distance accumulated so far, the current step's included [length]
+  Real area = 0;  ///< reference area that the node carries [length^2]
+  S rate = S(0);  ///< speed of sliding, the mean over the step [length / time]
 };
 
 /// Largest friction force that an interface bears, and its derivatives.
 template <class S>
 struct FrictionBound {
-  S value;       ///< [force], not negative
-  S d_pressure;  ///< [-]
-  S d_slip;      ///< [force / length]
+  S value;          ///< [force], not negative
+  S d_pressure;     ///< [-]
+  S d_slip;         ///< [force / length]
+  S d_rate = S(0);  ///< [force time / length]
 };
+
+/// Whether a law looks at the area of the node; a law that does not say so does not.
+template <class Law>
+constexpr bool depends_on_area() {
+  if constexpr (requires { Law::depends_on_area; })
+    return Law::depends_on_area;
+  else
+    return false;
+}
+/// Whether a law looks at the speed of sliding; a law that does not say so does not.
+template <class Law>
+constexpr bool depends_on_rate() {
+  if constexpr (requires { Law::depends_on_rate; })
+    return Law::depends_on_rate;
+  else
+    return false;
+}
 
 /// Where the normal force in a friction bound is taken from. `Memory` is what that needs to remember at a node.
 /// docs/policies.md, section Pressure source.
@@ -31,7 +52,7 @@ template <class P>
 concept PressureSourcePolicy = requires(const Real& current, const typename P::template Memory<Real>& memory, Real dt) {
   requires std::same_as<typename P::Role, role::PressureSource>;
   requires std::same_as<decltype(P::follows_current), const bool>;
-  { P::pressure(current, memory) } -> std::same_as<Real>;
+  { P::pressure(current, memory, dt) } -> std::same_as<Real>;
   { P::advance(current, memory, dt) } -> std::same_as<typename P::template Memory<Real>>;
 };
 

@@ -16,6 +16,7 @@ struct LoneNode {
   Friction friction{};
   const Tool& tool;
   Real weight = 1;
+  Real area = 1;  ///< reference area of the node [length^2], for laws that ask for it
 
   template <class S>
   using Memory = NodeMemory<S, 2, Enforcement, Friction>;
@@ -52,7 +53,7 @@ struct LoneNode {
                                            Real dt) const {
     Vec<S, 1> slipped = Vec<S, 1>::Zero();
     if constexpr (Friction::active) slipped[0] = tool.difference(point.place[0], old.friction.place[0]);
-    return contact_node<S, 2>(enforcement, law, friction, weight, point, slipped, old, pressure, dt);
+    return contact_node<S, 2>(enforcement, law, friction, weight, point, slipped, old, pressure, dt, area);
   }
 };
 
