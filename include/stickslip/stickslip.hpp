@@ -9,8 +9,12 @@
 #include <stickslip/element/mean_dilatation.hpp>
 #include <stickslip/enforcement/no_contact.hpp>
 #include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/capped_coulomb.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
+#include <stickslip/friction/slip_weakening.hpp>
+#include <stickslip/friction/stribeck.hpp>
+#include <stickslip/friction/tresca.hpp>
 #include <stickslip/geometry/profile.hpp>
 #include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/friction/pressure_source.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace stickslip {
+
+/// Coulomb's bound with a coefficient that falls as the node slides, for good:
+/// mu(S) = mu_dynamic + (mu_static - mu_dynamic) exp(-S / length) (theory.md, eq. 5.21).
+struct SlipWeakeningCoulomb {
+  using Role = role::Friction;
+  using Law = SlipWeakeningCoulomb;
+  using Pressure = CurrentPressure;
+  static constexpr bool active = true;
+  static constexpr bool depends_on_pressure = true;
+  static constexpr bool depends_on_slip = true;
+
+  Real mu_static = 0;   ///< coefficient before any slide [-]
+  Real mu_dynamic = 0;  ///< coefficient after a long slide [-]
+  Real length = 0;      ///< slid distance over which the difference falls to 1/e [length]
+
+  template <class S>
+  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+    using std::exp;
+    const S fading = exp(at.slip * (-1 / length)) * (mu_static - mu_dynamic);
+    const S mu = fading + mu_dynamic;
+    return {at.pressure * mu, mu, at.pressure * fading * (-1 / length)};
+  }
+  void validate() const {
+    if (!(mu_dynamic >= 0 && mu_static >= mu_dynamic))
+      throw std::invalid_argument("slip-weakening friction: needs 0 <= mu_dynamic <= mu_static");
+    if (!(length > 0)) throw std::invalid_argument("slip-weakening friction: the length must be positive");
+  }
+};
+
+}  // namespace stickslip

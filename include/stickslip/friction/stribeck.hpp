@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/friction/pressure_source.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace stickslip {
+
+/// Coulomb's bound with a coefficient that falls with the speed v of sliding and recovers at rest,
+/// mu(v) = mu_dynamic + (mu_static - mu_dynamic) exp(-w / speed), w = sqrt(v^2 + v_0^2) - v_0, v_0 = rounding * speed:
+/// w is v but near rest, where mu is level and smooth (theory.md, eq. 5.22).
+struct Stribeck {
+  using Role = role::Friction;
+  using Law = Stribeck;
+  using Pressure = CurrentPressure;
+  static constexpr bool active = true;
+  static constexpr bool depends_on_pressure = true;
+  static constexpr bool depends_on_slip = false;
+  static constexpr bool depends_on_rate = true;
+
+  Real mu_static = 0;    ///< coefficient at rest [-]
+  Real mu_dynamic = 0;   ///< coefficient of fast sliding [-]
+  Real speed = 0;        ///< Stribeck's speed, over which the difference falls to 1/e [length / time]
+  Real rounding = 0.01;  ///< v_0 / speed [-]
+
+  template <class S>
+  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+    using std::exp;
+    using std::sqrt;
+    const S v = at.rate * (1 / speed), root = sqrt(v * v + rounding * rounding);
+    const S fading = exp(rounding - root) * (mu_static - mu_dynamic);
+    const S mu = fading + mu_dynamic;
+    return {at.pressure * mu, mu, S(0), at.pressure * fading * v / root * (-1 / speed)};
+  }
+  /// mu(v) [-] at a speed of sliding [length / time].
+  Real coefficient(Real v) const { return bound(FrictionPoint<Real>{1, 0, 0, v}).value; }
+
+  void validate() const {
+    if (!(mu_dynamic >= 0 && mu_static >= mu_dynamic))
+      throw std::invalid_argument("Stribeck friction: needs 0 <= mu_dynamic <= mu_static");
+    if (!(speed > 0)) throw std::invalid_argument("Stribeck friction: the speed must be positive");
+    if (!(rounding > 0)) throw std::invalid_argument("Stribeck friction: the rounding must be positive");
+  }
+};
+
+}  // namespace stickslip

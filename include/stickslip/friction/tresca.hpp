@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/friction/pressure_source.hpp>
+
+#include <stdexcept>
+
+namespace stickslip {
+
+/// Tresca's bound tau A: a shear stress that needs contact, whatever the pressure (theory.md, eq. 5.20). Its tangent is
+/// symmetric, and no pressure source makes a difference.
+struct Tresca {
+  using Role = role::Friction;
+  using Law = Tresca;
+  using Pressure = CurrentPressure;
+  static constexpr bool active = true;
+  static constexpr bool depends_on_pressure = false;
+  static constexpr bool depends_on_slip = false;
+  static constexpr bool depends_on_area = true;
+
+  Real tau = 0;  ///< shear stress, per reference area [force / length^2]
+
+  template <class S>
+  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+    return {S(tau * at.area), S(0), S(0)};
+  }
+  void validate() const {
+    if (!(tau >= 0)) throw std::invalid_argument("Tresca friction: the shear stress tau must not be negative");
+  }
+};
+static_assert(friction_symmetry<Tresca>() == Symmetry::symmetric);
+
+}  // namespace stickslip
