@@ -20,6 +20,22 @@ TEST_CASE("the product of all choices, and how much of it the rules admit") {
   MESSAGE(mp_size<Product>::value << " bundles, " << mp_size<Valid>::value << " valid");
 }
 
+using Rubbing = mp_product<WithPressure, Bounds, Sources>;
+template <class Friction>
+using IsGeneral = std::bool_constant<friction_symmetry<Friction>() == Symmetry::general>;
+
+TEST_CASE("any bound takes any pressure source, and the two decide on the solvers together") {
+  using All =
+      mp_product<Bundle, mp_list<PlaneStrain>, mp_list<MeanDilatation<Quad4>>, mp_list<Hencky>, Rubbing, Solvers>;
+  using Admitted = mp_copy_if<All, IsValid>;
+  static_assert(mp_size<Rubbing>::value == 5 * 3);
+  // Of the bounds only Tresca's is symmetric at the current pressure.
+  constexpr std::size_t general = mp_size<mp_copy_if<Rubbing, IsGeneral>>::value;
+  static_assert(general == 4);
+  static_assert(mp_size<Admitted>::value == general * 3 + (15 - general) * 6);
+  MESSAGE(mp_size<Rubbing>::value << " friction policies, " << mp_size<Admitted>::value << " with a solver");
+}
+
 void check(const Answer& answer, bool hoop, bool friction, bool plastic) {
   REQUIRE_MESSAGE(answer.outcome, answer.outcome.message());
   CHECK(answer.steps == 3);

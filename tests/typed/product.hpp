@@ -33,6 +33,9 @@ using Elements = mp_list<MeanDilatation<Quad4>, FullyIntegrated<Quad4>>;
 using Materials =
     mp_list<Hencky, NeoHookean, FiniteJ2<LinearHardening>, FiniteJ2<PowerHardening>, HypoelasticJ2<LinearHardening>>;
 using Frictions = mp_list<Frictionless, Coulomb, QuasiCoulomb>;
+// Any bound takes any source: all of them are judged, those above run.
+using Bounds = mp_list<Coulomb, CappedCoulomb, Tresca, SlipWeakeningCoulomb, Stribeck>;
+using Sources = mp_list<CurrentPressure, LastConverged, Extrapolated>;
 // First those for symmetric systems, then those for all.
 using Solvers = mp_list<EigenLdlt, BandedCholesky, Cholmod, EigenLu, BandedLu, Umfpack>;
 

@@ -2,7 +2,11 @@
 // Wrong input: std::invalid_argument before any work, and the message names the input.
 #include <stickslip/element/mean_dilatation.hpp>
 #include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/capped_coulomb.hpp>
 #include <stickslip/friction/coulomb.hpp>
+#include <stickslip/friction/slip_weakening.hpp>
+#include <stickslip/friction/stribeck.hpp>
+#include <stickslip/friction/tresca.hpp>
 #include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
@@ -152,6 +156,21 @@ TEST_CASE("contacts") {
   CHECK(says(contact([](auto& c) { c.friction.mu = -0.1; }), "mu"));
   CHECK(says(contact([](auto& c) { c.friction.mu = nan; }), "mu"));
   CHECK(says(after<Plane>(good(), [](auto& p) { p.contacts.push_back(p.contacts[0]); }), "\"top\""));
+}
+
+TEST_CASE("friction laws") {
+  CappedCoulomb{.mu = 0.1, .tau_max = infinity}.validate();
+  COMPLAINS("mu ", (CappedCoulomb{.mu = -0.1, .tau_max = 1}.validate()));
+  COMPLAINS("tau_max", (CappedCoulomb{.mu = 0.1}.validate()));
+  COMPLAINS("tau_max", (CappedCoulomb{.mu = 0.1, .tau_max = nan}.validate()));
+  COMPLAINS("tau ", Tresca{.tau = -1}.validate());
+  COMPLAINS("tau ", Tresca{.tau = nan}.validate());
+  COMPLAINS("mu_dynamic", (SlipWeakeningCoulomb{.mu_static = 0.1, .mu_dynamic = 0.2, .length = 1}.validate()));
+  COMPLAINS("mu_dynamic", (SlipWeakeningCoulomb{.mu_static = 0.1, .mu_dynamic = -0.2, .length = 1}.validate()));
+  COMPLAINS("length", (SlipWeakeningCoulomb{.mu_static = 0.2, .mu_dynamic = 0.1}.validate()));
+  COMPLAINS("mu_static", (Stribeck{.mu_static = nan, .speed = 1}.validate()));
+  COMPLAINS("speed", Stribeck{.mu_static = 0.2}.validate());
+  COMPLAINS("rounding", (Stribeck{.mu_static = 0.2, .speed = 1, .rounding = 0}.validate()));
 }
 
 TEST_CASE("supports, loads, contacts by name and tools that are nowhere") {

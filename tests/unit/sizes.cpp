@@ -3,8 +3,12 @@
 #include <stickslip/element/mean_dilatation.hpp>
 #include <stickslip/enforcement/no_contact.hpp>
 #include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/capped_coulomb.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
+#include <stickslip/friction/slip_weakening.hpp>
+#include <stickslip/friction/stribeck.hpp>
+#include <stickslip/friction/tresca.hpp>
 #include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
@@ -56,6 +60,19 @@ static_assert(Body<Model<HypoelasticJ2<LinearHardening>, Frictionless, NoContact
 static_assert(ContactPair<Smooth>::bytes_per_node == 0);
 static_assert(ContactPair<Rough>::bytes_per_node == 3 * sizeof(Real));   // traction, place, slip
 static_assert(ContactPair<Lagged>::bytes_per_node == 4 * sizeof(Real));  // and the pressure
+template <class F>
+constexpr std::size_t numbers_per_node = ContactPair<Model<Hencky, F, Penalty>>::bytes_per_node / sizeof(Real);
+static_assert(numbers_per_node<ExtrapolatedCoulomb> == 5);  // the pressure and its trend
+static_assert(numbers_per_node<CappedCoulomb> == 3 && numbers_per_node<Quasi<CappedCoulomb>> == 4);
+static_assert(numbers_per_node<SlipWeakeningCoulomb> == 3 && numbers_per_node<Stribeck> == 3);
+static_assert(numbers_per_node<WithPressure<Stribeck, Extrapolated>> == 5);
+// A bound that does not look at the pressure remembers none, whatever the source.
+static_assert(numbers_per_node<Tresca> == 3 && numbers_per_node<WithPressure<Tresca, Extrapolated>> == 3);
+// Areas are kept for laws that look at them.
+static_assert(sizeof(Tresca) == sizeof(Coulomb));
+static_assert(sizeof(ContactPair<Model<Hencky, Tresca, Penalty>>) >=
+              sizeof(ContactPair<Rough>) + sizeof(std::vector<Real>));
+static_assert(!ContactPair<Model<Hencky, Stribeck, Penalty>>::takes_area);
 static_assert(!PointMemory<Hencky::State<Real, Planar>, 4>::stored);
 static_assert(std::is_empty_v<PointMemory<Hencky::State<Real, Planar>, 4>>);
 static_assert(sizeof(PointGeometry<Axisymmetric, 4>) == sizeof(PointGeometry<PlaneStrain, 4>) + 4 * sizeof(Real));
