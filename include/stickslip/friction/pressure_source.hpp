@@ -41,7 +41,7 @@ struct LastConverged {
 };
 
 /// The normal force that the last two converged steps foretell, linear in time and between zero and twice the last one
-/// (theory.md, eq. 5.25): a symmetric tangent, and a bound that lags at second order in the step. A node that one step
+/// (theory.md, eq. 5.24): a symmetric tangent, and a bound that lags at second order in the step. A node that one step
 /// alone knows of has no trend: after its first contact the last converged force is taken.
 struct Extrapolated {
   using Role = role::PressureSource;
