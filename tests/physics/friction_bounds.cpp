@@ -26,6 +26,24 @@ TEST_CASE("Tresca: a sliding block is dragged by tau A, whatever presses it") {
   CHECK(sliding > 20);
 }
 
+TEST_CASE("Tresca on a ring: the area is that of the full turn, whatever the penalty stands for") {
+  using M = Model<EigenDirect, Tresca, Hencky, Axisymmetric>;
+  for (const PenaltyPer per : {PenaltyPer::unit_depth, PenaltyPer::area}) {
+    Problem<M> p({.body = mesh::rectangle({.origin = {3, 0}, .size = {1, 2}, .cells = {3, 2}}),
+                  .material = material<Hencky>(),
+                  .contacts = {{.side = "top",
+                                .tool = rigid::line({0, 2}, {-1, 0}),
+                                .motion = [](Real t) { return V(0.1 * t, -0.02); },
+                                .friction = {.tau = 5},
+                                .enforcement = {.normal = 1e5, .tangential = 1e5, .per = per}}}});
+    p.hold("bottom", 0).hold("bottom", 1);
+    auto march = p.march({.end = 1, .steps = 4});
+    for (const StepReport& step : march) CHECK(step.contact.bound == doctest::Approx(5 * pi * (16 - 9)).epsilon(1e-12));
+    CHECK(bool(march.outcome()));
+    CHECK(p.contact_force("top")[0] == doctest::Approx(-5 * pi * (16 - 9)).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("capped Coulomb: mu N far below the cap, tau_max A at it") {
   const V coulomb = sliding_block<Coulomb>({.mu = 0.3}, 20, 0.02);
   const V below = sliding_block<CappedCoulomb>({.mu = 0.3, .tau_max = 1e6}, 20, 0.02);

@@ -132,6 +132,17 @@ TEST_CASE("a step so short that Stribeck's bound falls faster than the sticking 
     }
 }
 
+TEST_CASE("a step without duration has no speed") {
+  for (const Scene& scene : scenes) {
+    const auto node = node_on<Stribeck>(scene, stribeck);
+    const std::vector<V> path{place(scene, -0.01, 0), place(scene, 0.02, 0.3)};
+    const auto now = node.at<Real>(path.back(), node.preloaded<Real>(path, 0), 0);
+    CHECK(now.sliding);
+    CHECK(now.cause == Cause::none);
+    CHECK(std::abs(now.memory.friction.traction[0]) == doctest::Approx(0.4 * now.pressure.value).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("a bound of no strength is no friction") {
   for (const Scene& scene : scenes) {
     const auto smooth = slide<Coulomb>(scene, {}, 0.02, 0.3).first;
