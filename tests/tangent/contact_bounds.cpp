@@ -189,4 +189,31 @@ TEST_CASE("extrapolated pressure: linear in time, weighted by the steps, clipped
   CHECK(node.at<Real>(deep, back.memory, dt).memory.friction.pressure.trend > 0);
 }
 
+// A sliding node whose pressure friction lowers, p = load(t) - kappa times the pressure in the bound: its error against
+// the current pressure, load / (1 + kappa), after so many equal steps of size h (theory.md, eq. 5.12 and 5.25).
+template <class Source, class Load>
+Real error_after(int steps, Real h, Real kappa, Load&& load) {
+  typename Source::template Memory<Real> memory{};
+  Real p = 0;
+  for (int i = 1; i <= steps; ++i) {
+    p = load(i * h) - kappa * Source::pressure(0.0, memory, h);
+    memory = Source::advance(p, memory, h);
+  }
+  return p - load(steps * h) / (1 + kappa);
+}
+TEST_CASE("lagged pressures settle at the errors, and lose their stability at the ratios, of the theory") {
+  const auto constant = [](Real) { return 1.0; };
+  CHECK(std::abs(error_after<LastConverged>(400, 1, 0.95, constant)) < 1e-6);
+  CHECK(std::abs(error_after<LastConverged>(400, 1, 1.01, constant)) > 0.1);
+  CHECK(std::abs(error_after<Extrapolated>(400, 1, 0.32, constant)) < 1e-3);
+  CHECK(std::abs(error_after<Extrapolated>(400, 1, 0.35, constant)) > 0.01);
+  const Real h = 0.01, kappa = 0.2;
+  const auto growing = [](Real t) { return 5 + t * t; };
+  const Real slope = 2 * h * (200 * h - 0.5 * h), bend = 2 * h * h;  // last and second difference of the load
+  CHECK(error_after<LastConverged>(200, h, kappa, growing) ==
+        doctest::Approx(kappa * slope / (1 + kappa) / (1 + kappa)).epsilon(0.01));
+  CHECK(error_after<Extrapolated>(200, h, kappa, growing) ==
+        doctest::Approx(kappa * bend / (1 + kappa) / (1 + kappa)).epsilon(1e-6));
+}
+
 }  // namespace
