@@ -123,7 +123,7 @@ class Cholmod {
   cholmod_dense* work_e_ = nullptr;
   SparseView matrix_{};
   bool indefinite_ = false;
-  SymmetricRefinement refinement_;
+  Refinement refinement_;
 };
 
 }  // namespace stickslip

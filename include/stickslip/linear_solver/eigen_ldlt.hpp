@@ -49,7 +49,7 @@ class EigenLdlt {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real, Eigen::ColMajor, Index>, Eigen::Lower> solver_;
   SparseView matrix_{};
   bool indefinite_ = false;
-  SymmetricRefinement refinement_;
+  Refinement refinement_;
 };
 
 }  // namespace stickslip

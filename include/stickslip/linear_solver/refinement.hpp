@@ -5,23 +5,26 @@
 
 namespace stickslip {
 
-/// Iterative refinement for factors of indefinite symmetric matrices that were made without pivoting: such a factor may
-/// be poor, so its solution is held against the matrix, improved, and refused if it stays wrong.
-class SymmetricRefinement {
+/// Iterative refinement where a solution is not to be trusted as it comes: from the factor of an indefinite matrix that
+/// was made without pivoting, or from iterations that follow their residual by recurrence. It is held against the matrix,
+/// improved, and refused if it stays wrong.
+class Refinement {
  public:
   void resize(Index size) {
     residual_.setZero(size);
     correction_.setZero(size);
   }
 
-  /// Solves A x = b by `backsolve(b, x)`, which returns false when it cannot. `matrix` holds the lower triangle of A.
+  /// Solves A x = b to the relative residual `aim`, if that can be had, by `backsolve(b, x)`, which returns false when it
+  /// cannot. `matrix` holds A, or its lower triangle.
   template <class Backsolve>
-  bool solve(const SparseView& matrix, const Real* right_hand_side, Real* solution, Backsolve&& backsolve) {
+  bool solve(const SparseView& matrix, const Real* right_hand_side, Real* solution, Backsolve&& backsolve,
+             Real aim = 1e-12) {
     const Eigen::Map<const Field> b(right_hand_side, matrix.size);
     Eigen::Map<Field> x(solution, matrix.size);
     if (!backsolve(right_hand_side, solution)) return false;
     for (int sweep = 0; sweep < 4; ++sweep) {
-      if (relative_residual(matrix, b, x) <= 1e-12) return true;
+      if (relative_residual(matrix, b, x) <= aim) return true;
       if (!backsolve(residual_.data(), correction_.data())) return false;
       x += correction_;
     }
@@ -35,7 +38,7 @@ class SymmetricRefinement {
       for (Index k = m.column_start[j]; k < m.column_start[j + 1]; ++k) {
         const Index i = m.row[k];
         residual_[i] -= m.values[k] * x[j];
-        if (i != j) residual_[j] -= m.values[k] * x[i];
+        if (m.symmetry == Symmetry::symmetric && i != j) residual_[j] -= m.values[k] * x[i];
       }
     const Real size = b.norm();
     return size > 0 ? residual_.norm() / size : 0;

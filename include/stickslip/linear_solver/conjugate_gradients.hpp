@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/linear_solver/iteration_limits.hpp>
+#include <stickslip/linear_solver/refinement.hpp>
+#include <stickslip/policy/linear_solver.hpp>
+
+#include <Eigen/IterativeLinearSolvers>
+
+#include <vector>
+
+namespace stickslip {
+
+/// Conjugate gradients with Eigen's incomplete Cholesky factor: memory and time of a large solid grow little faster than
+/// its unknowns. For positive definite systems alone: a direction of negative curvature refuses the solution.
+class ConjugateGradients {
+ public:
+  using Role = role::LinearSolver;
+  static constexpr Symmetry accepts = Symmetry::symmetric;
+  static constexpr Symmetry storage = Symmetry::symmetric;
+
+  IterationLimits limits;
+
+  void analyze(const SparseView& pattern) {
+    refinement_.resize(pattern.size);
+    for (Field* field : {&residual_, &preconditioned_, &direction_, &image_}) field->setZero(pattern.size);
+    complete_diagonal_ = true;
+    for (Index j = 0; j < pattern.size; ++j)
+      complete_diagonal_ &=
+          pattern.column_start[j] < pattern.column_start[j + 1] && pattern.row[pattern.column_start[j]] == j;
+    const std::vector<Real> zeros(static_cast<std::size_t>(pattern.nonzeros()), 0.0);
+    preconditioner_.analyzePattern(map(pattern, zeros.data()));
+  }
+
+  /// `done` says that there is a preconditioner: only `solve` finds out whether the matrix is definite.
+  Factorization factorize(const SparseView& matrix) {
+    if (!complete_diagonal_) return Factorization::failed;  // Eigen would take another entry for it
+    matrix_ = matrix;
+    preconditioner_.factorize(map(matrix, matrix.values));
+    return preconditioner_.info() == Eigen::Success ? Factorization::done : Factorization::failed;
+  }
+
+  bool solve(const Real* right_hand_side, Real* solution) {
+    iterations_ = 0;
+    return refinement_.solve(
+        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); }, limits.tolerance);
+  }
+
+  /// Of the last solution.
+  Index iterations() const { return iterations_; }
+
+ private:
+  using Matrix = Eigen::Map<const Eigen::SparseMatrix<Real, Eigen::ColMajor, Index>>;
+  static Matrix map(const SparseView& m, const Real* values) {
+    return Matrix(m.size, m.size, m.nonzeros(), m.column_start, m.row, values);
+  }
+
+  bool iterate(const Real* right_hand_side, Real* solution) {
+    const Matrix matrix = map(matrix_, matrix_.values);
+    Eigen::Map<Field> x(solution, matrix_.size);
+    x.setZero();
+    residual_ = Eigen::Map<const Field>(right_hand_side, matrix_.size);
+    direction_.setZero();
+    const Real aim = limits.tolerance * residual_.norm();
+    Real energy = 1;  // any but zero: the first direction has none before it
+    while (!(residual_.norm() <= aim)) {
+      if (iterations_++ == limits.iterations) return false;
+      preconditioned_ = preconditioner_.solve(residual_);
+      const Real last = energy;
+      energy = residual_.dot(preconditioned_);
+      direction_ = preconditioned_ + energy / last * direction_;
+      image_.noalias() = matrix.selfadjointView<Eigen::Lower>() * direction_;
+      const Real curvature = direction_.dot(image_);
+      if (!(curvature > 0)) return false;
+      x += energy / curvature * direction_;
+      residual_ -= energy / curvature * image_;
+    }
+    return true;
+  }
+
+  // Without an ordering: it keeps no more entries than the matrix has, and neighbours in a mesh are good neighbours here.
+  Eigen::IncompleteCholesky<Real, Eigen::Lower, Eigen::NaturalOrdering<Index>> preconditioner_;
+  SparseView matrix_{};
+  Field residual_, preconditioned_, direction_, image_;
+  Refinement refinement_;
+  Index iterations_ = 0;
+  bool complete_diagonal_ = true;
+};
+
+}  // namespace stickslip
