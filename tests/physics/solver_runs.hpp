@@ -21,6 +21,7 @@ Outcome outcome() {
   o.positive = answer<Solver>(positive);
   o.indefinite = answer<Solver>(indefinite);
   o.singular = answer<Solver>(singular);
+  o.again = answer_again<Solver>();
   return o;
 }
 

@@ -31,9 +31,11 @@ struct Matrix {
 struct Outcome {
   std::vector<Real> coulomb, quasi;  ///< empty where the solver does not take the system
   Answer positive, indefinite, singular;
+  Answer again;  ///< to `positive`, after the other two with the same analysis, while another solver lives
 };
 extern const Matrix positive, indefinite, singular;  // the lower triangles
 Matrix both_triangles(const Matrix& lower);
+std::vector<Real> right_hand_side(const Matrix& m);
 
 Outcome eigen_ldlt();
 Outcome eigen_lu();
@@ -41,16 +43,42 @@ Outcome cholmod();
 Outcome umfpack();
 Outcome banded_cholesky();
 Outcome banded_lu();
+Outcome mumps_ldlt();
+Outcome mumps_lu();
+Outcome conjugate_gradients();
+Outcome bicgstab();
 
+template <class Solver>
+Matrix stored(const Matrix& lower) {
+  return Solver::storage == Symmetry::symmetric ? lower : both_triangles(lower);
+}
+/// By a solver that has analysed the pattern.
+template <class Solver>
+Answer answer(Solver& solver, const Matrix& m) {
+  Answer a{solver.factorize(m.view()), false, std::vector<Real>(std::size_t(m.view().size))};
+  if (a.factorization != Factorization::failed) a.solved = solver.solve(right_hand_side(m).data(), a.x.data());
+  return a;
+}
 template <class Solver>
 Answer answer(const Matrix& lower) {
   Solver solver;
-  const Matrix m = Solver::storage == Symmetry::symmetric ? lower : both_triangles(lower);
+  const Matrix m = stored<Solver>(lower);
   solver.analyze(m.view());
+  return answer(solver, m);
+}
+/// One analysis, three factorisations of the pattern; another solver works on another matrix in between.
+template <class Solver>
+Answer answer_again() {
+  Solver solver, other;
+  const Matrix m = stored<Solver>(positive), shifted = stored<Solver>(indefinite), small = stored<Solver>(singular);
+  solver.analyze(m.view());
+  other.analyze(small.view());
+  answer(solver, m);
+  answer(other, small);
+  answer(solver, shifted);
   Answer a{solver.factorize(m.view()), false, std::vector<Real>(std::size_t(m.view().size))};
-  std::vector<Real> b;
-  for (std::size_t i = 0; i < a.x.size(); ++i) b.push_back(std::sin(1.0 + double(i)));
-  if (a.factorization != Factorization::failed) a.solved = solver.solve(b.data(), a.x.data());
+  answer(other, small);
+  if (a.factorization != Factorization::failed) a.solved = solver.solve(right_hand_side(m).data(), a.x.data());
   return a;
 }
 

@@ -7,12 +7,14 @@
 
 #include <Eigen/IterativeLinearSolvers>
 
+#include <algorithm>
 #include <vector>
 
 namespace stickslip {
 
-/// Eigen's stabilised biconjugate gradients with its incomplete LU. Takes every system, and refuses where it does not
-/// converge: the incomplete factor does not pivot.
+/// Eigen's stabilised biconjugate gradients with its incomplete LU, which is tightened for good where they do not
+/// converge with a loose one. Takes every system, and refuses what does not converge even so: the incomplete factor
+/// does not pivot.
 class Bicgstab {
  public:
   using Role = role::LinearSolver;
@@ -21,30 +23,25 @@ class Bicgstab {
 
   IterationLimits limits;
 
-  // Looser than Eigen's defaults, whose factor costs more than it saves: it is made anew for every iterate.
-  Bicgstab() {
-    solver_.preconditioner().setDroptol(1e-2);
-    solver_.preconditioner().setFillfactor(2);
-  }
-
   void analyze(const SparseView& pattern) {
     refinement_.resize(pattern.size);
     const std::vector<Real> zeros(static_cast<std::size_t>(pattern.nonzeros()), 0.0);
     solver_.analyzePattern(map(pattern, zeros.data()));
+    tighten(false);
   }
 
   /// `done` says that there is a preconditioner.
   Factorization factorize(const SparseView& matrix) {
     matrix_ = matrix;
-    solver_.factorize(map(matrix, matrix.values));
-    return solver_.preconditioner().info() == Eigen::Success ? Factorization::done : Factorization::failed;
+    return precondition() ? Factorization::done : Factorization::failed;
   }
 
   bool solve(const Real* right_hand_side, Real* solution) {
-    solver_.setTolerance(limits.tolerance).setMaxIterations(limits.iterations);
     iterations_ = 0;
-    return refinement_.solve(
-        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); }, limits.tolerance);
+    if (converge(right_hand_side, solution)) return true;
+    if (tight_) return false;
+    tighten(true);
+    return precondition() && converge(right_hand_side, solution);
   }
 
   /// Of the last solution.
@@ -56,9 +53,26 @@ class Bicgstab {
     return {m.size, m.size, m.nonzeros(), m.column_start, m.row, values};
   }
 
+  // Near incompressibility and indefinite matrices need the tight factor, which is not much less than a whole one; the
+  // loose one is made in a fraction of its time.
+  void tighten(bool tight) {
+    tight_ = tight;
+    solver_.preconditioner().setDroptol(tight ? 1e-4 : 1e-2);
+    solver_.preconditioner().setFillfactor(tight ? 10 : 2);
+  }
+  bool precondition() {
+    solver_.factorize(map(matrix_, matrix_.values));
+    return solver_.preconditioner().info() == Eigen::Success;
+  }
+
+  bool converge(const Real* right_hand_side, Real* solution) {
+    solver_.setTolerance(limits.tolerance);
+    solver_.setMaxIterations(tight_ ? limits.iterations : std::min<Index>(limits.iterations, 300));
+    return refinement_.solve(
+        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); }, limits.tolerance);
+  }
   bool iterate(const Real* right_hand_side, Real* solution) {
-    Eigen::Map<Field>(solution, matrix_.size) =
-        solver_.solve(Eigen::Map<const Field>(right_hand_side, matrix_.size));
+    Eigen::Map<Field>(solution, matrix_.size) = solver_.solve(Eigen::Map<const Field>(right_hand_side, matrix_.size));
     iterations_ += static_cast<Index>(solver_.iterations());
     return solver_.info() == Eigen::Success;
   }
@@ -67,6 +81,7 @@ class Bicgstab {
   SparseView matrix_{};
   Refinement refinement_;
   Index iterations_ = 0;
+  bool tight_ = false;
 };
 
 }  // namespace stickslip

@@ -11,8 +11,8 @@
 
 namespace stickslip {
 
-/// Conjugate gradients with Eigen's incomplete Cholesky factor: memory and time of a large solid grow little faster than
-/// its unknowns. For positive definite systems alone: a direction of negative curvature refuses the solution.
+/// Conjugate gradients with Eigen's incomplete Cholesky factor: memory and time of a large solid grow little faster
+/// than its unknowns. For positive definite systems alone: a direction of negative curvature refuses the solution.
 class ConjugateGradients {
  public:
   using Role = role::LinearSolver;
@@ -78,7 +78,8 @@ class ConjugateGradients {
     return true;
   }
 
-  // Without an ordering: it keeps no more entries than the matrix has, and neighbours in a mesh are good neighbours here.
+  // Without an ordering: it keeps no more entries than the matrix has, and neighbours in a mesh are good neighbours
+  // here.
   Eigen::IncompleteCholesky<Real, Eigen::Lower, Eigen::NaturalOrdering<Index>> preconditioner_;
   SparseView matrix_{};
   Field residual_, preconditioned_, direction_, image_;

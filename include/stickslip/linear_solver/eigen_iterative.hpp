@@ -8,8 +8,8 @@
 
 namespace stickslip {
 
-/// Preconditioned conjugate gradients for symmetric systems, biconjugate ones for the others: for solids too large for a
-/// factor. Needs nothing but Eigen.
+/// Preconditioned conjugate gradients for symmetric systems, biconjugate ones for the others: for solids too large for
+/// a factor. Needs nothing but Eigen.
 struct EigenIterative {
   using Role = role::LinearSolver;
   template <Symmetry system>

@@ -6,8 +6,8 @@
 namespace stickslip {
 
 /// Iterative refinement where a solution is not to be trusted as it comes: from the factor of an indefinite matrix that
-/// was made without pivoting, or from iterations that follow their residual by recurrence. It is held against the matrix,
-/// improved, and refused if it stays wrong.
+/// was made without pivoting, or from iterations that follow their residual by recurrence. It is held against the
+/// matrix, improved, and refused if it stays wrong.
 class Refinement {
  public:
   void resize(Index size) {
@@ -15,8 +15,8 @@ class Refinement {
     correction_.setZero(size);
   }
 
-  /// Solves A x = b to the relative residual `aim`, if that can be had, by `backsolve(b, x)`, which returns false when it
-  /// cannot. `matrix` holds A, or its lower triangle.
+  /// Solves A x = b to the relative residual `aim`, if that can be had, by `backsolve(b, x)`, which returns false when
+  /// it cannot. `matrix` holds A, or its lower triangle.
   template <class Backsolve>
   bool solve(const SparseView& matrix, const Real* right_hand_side, Real* solution, Backsolve&& backsolve,
              Real aim = 1e-12) {
