@@ -36,7 +36,8 @@ using Frictions = mp_list<Frictionless, Coulomb, QuasiCoulomb>;
 // Any bound takes any source: all of them are judged, those above run.
 using Bounds = mp_list<Coulomb, CappedCoulomb, Tresca, SlipWeakeningCoulomb, Stribeck>;
 using Sources = mp_list<CurrentPressure, LastConverged, Extrapolated>;
-// First those for symmetric systems, then those for all.
+// First those for symmetric systems, then those for all. MUMPS and the iterative solvers are held against these in
+// tests/physics/solvers.cpp.
 using Solvers = mp_list<EigenLdlt, BandedCholesky, Cholmod, EigenLu, BandedLu, Umfpack>;
 
 template <class Model>
