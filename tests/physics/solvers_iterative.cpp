@@ -42,23 +42,30 @@ TEST_CASE("conjugate gradients refuse a matrix with gaps in its diagonal") {
   CHECK(answer<ConjugateGradients>(saddle).factorization == Factorization::failed);
 }
 
-// Waves on a square grid, with an eighth of the eigenvalues negative.
-Matrix waves(Index side) {
+// Waves on a square grid: the smallest eigenvalue is diagonal - 4 cos(pi / (side + 1)).
+Matrix waves(Index side, Real diagonal) {
   Matrix m{{0}, {}, {}, Symmetry::symmetric};
   const auto add = [&m](Index row, Real value) {
     m.row.push_back(row);
     m.values.push_back(value);
   };
   for (Index j = 0; j < side * side; ++j) {
-    add(j, 2.5);
+    add(j, diagonal);
     if ((j + 1) % side != 0) add(j + 1, -1);
     if (j + side < side * side) add(j + side, -1);
     m.start.push_back(Index(m.row.size()));
   }
   return m;
 }
+TEST_CASE("conjugate gradients refuse a matrix with one negative eigenvalue") {
+  const Answer definite = answer<ConjugateGradients>(waves(20, 4.0)),
+               indefinite_one = answer<ConjugateGradients>(waves(20, 3.9));
+  CHECK(definite.solved);
+  CHECK(indefinite_one.factorization == Factorization::done);  // nothing to be seen yet
+  CHECK_FALSE(indefinite_one.solved);
+}
 TEST_CASE("a loose incomplete factor that does not do is tightened for good") {
-  const Matrix m = stored<Bicgstab>(waves(20));
+  const Matrix m = stored<Bicgstab>(waves(20, 2.5));
   Bicgstab solver;
   solver.analyze(m.view());
   CHECK(answer(solver, m).solved);
