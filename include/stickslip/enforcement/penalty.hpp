@@ -20,7 +20,7 @@ struct Penalty {
   template <class S>
   struct Memory {};
 
-  /// t_N at a gap that is not positive (theory.md, eq. 4.4).
+  /// t_N (theory.md, eq. 4.4). At a positive gap, which an iteration may have, its smooth continuation.
   template <class S>
   NormalForce<S> normal_force(const S& gap, Real weight, const Memory<S>&) const {
     return {gap * (normal * weight), S(normal * weight)};

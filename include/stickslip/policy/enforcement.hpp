@@ -16,7 +16,8 @@ enum class PenaltyPer {
   area,        ///< reference area that the node carries
 };
 
-/// Normal force of a node on the tool and its derivative.
+/// Normal force of a node on the tool and its derivative; of a node that an iteration holds off the tool, their smooth
+/// continuation.
 template <class S>
 struct NormalForce {
   S value;  ///< t_N <= 0 in contact [force]
