@@ -211,7 +211,7 @@ def conical_extrusion(programs, out, repeats):
     draw_forces(out, name, "Conical extrusion: ram force (paper, figure 15)", "ram travel [mm]", "ram force [kN]")
     folder = out / name / "coulomb-0.10"
     draw_sequence(folder, "sequence", "Conical extrusion at 44.5, 89, 135 and 178 mm, Coulomb (paper, figure 14)",
-                  [(f"{t:g} mm", f) for t, f in [*shots(folder), (178.0, "mesh.dat")]], 80, {"label": (5, 620), "ranges": "set xrange [-10:310]\nset yrange [0:650]"})
+                  [(f"{t:g} mm", f) for t, f in [*shots(folder), (178.0, "mesh.dat")]], 130, {"label": (5, 620), "ranges": "set xrange [-10:490]\nset yrange [0:650]"})
     return results
 
 
