@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scene.hpp"
+#include "patch_check.hpp"
 
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
@@ -10,42 +10,11 @@ namespace {
 
 using namespace scene;
 
-// A homogeneous field u = H X imposed on the boundary of a distorted mesh: it must hold inside, with constant P.
 template <class M>
 void check_body(const Mat<Real, 2>& H, Index steps) {
   auto mesh = distorted(mesh::rectangle({.cells = {4, 3}}));
   for (auto& x : mesh.nodes) x += V(0.5, 0);
-  // A side for every node of the boundary.
-  std::map<Index, std::string> boundary;
-  for (const char* name : {"left", "right", "bottom", "top"})
-    for (const Index n : mesh.sides[name].nodes) boundary[n] = "node " + std::to_string(n);
-  for (const auto& [n, name] : boundary) mesh.sides[name].nodes = {n};
-  Problem<M> p({.body = mesh, .material = material<typename M::Material>()});
-  for (const auto& [n, name] : boundary) {
-    const V u = H * mesh.nodes[std::size_t(n)];
-    for (int i = 0; i < 2; ++i) p.drive(name, i, [v = u[i]](Real t) { return t * v; });
-  }
-  auto march = p.march({.end = 1, .steps = steps, .tolerance = 1e-13});
-  CHECK(bool(march.finish()));
-  Real worst = 0;
-  Index inside = 0;
-  for (Index n = 0; n < mesh.node_count(); ++n) {
-    worst = std::max(worst, (p.displacement(n) - H * mesh.nodes[std::size_t(n)]).norm());
-    inside += boundary.count(n) ? 0 : 1;
-  }
-  CHECK(inside == 6);
-  CHECK(worst < 1e-10);
-  Vec<Real, 5> first = Vec<Real, 5>::Zero();
-  Real spread = 0, scale = 0;
-  p.body().visit_points(p.displacement(), [&](Index e, int q, const auto& F, const auto& state, Real) {
-    const Vec<Real, 5> P = p.body().material().respond(F, state, 0).P.v;
-    if (e == 0 && q == 0) first = P;
-    spread = std::max(spread, (P - first).norm());
-    scale = std::max(scale, P.norm());
-  });
-  CHECK(scale > 1);
-  CHECK(spread < 1e-10 * scale);
-  if constexpr (!std::is_same_v<typename M::Material, Hencky>) CHECK(p.max_plastic_strain() > 0.01);
+  check_patch<M>(mesh, {"left", "right", "bottom", "top"}, H, steps, 6);
 }
 
 Mat<Real, 2> plane() {

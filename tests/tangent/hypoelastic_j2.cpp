@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "planar.hpp"
+
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/material/hencky.hpp>
 #include <stickslip/material/hypoelastic_j2.hpp>
-#include <stickslip/verify/material.hpp>
 
 #include <doctest/doctest.h>
 
 namespace {
 
 using namespace stickslip;
-using F2 = Tensor<Real, Planar>;
 using Path = verify::DeformationPath<Planar>;
-
-F2 gradient(Real f11, Real f12, Real f21, Real f22, Real f33) {
-  F2 F;
-  F.v << f11, f12, f21, f22, f33;
-  return F;
-}
-F2 rotation(Real angle) {
-  return gradient(std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle), 1);
-}
 
 using Linear = HypoelasticJ2<LinearHardening>;
 using Voce = HypoelasticJ2<VoceHardening>;
@@ -86,7 +77,8 @@ TEST_CASE("hypoelastic J2: tangent, memory and objectivity in flow and without")
 }
 TEST_CASE("hypoelastic J2: tangent of a step that does not stretch, or equally in two directions") {
   const F2 G = gradient(1.2, 0.3, -0.1, 0.9, 1.1);
-  for (const F2& step : {F2::identity(), rotation(0.6), gradient(1.1, 0, 0, 1.1, 0.95), gradient(0, -1.1, 1.1, 0, 1)}) {
+  for (const F2& step :
+       {F2::identity(), verify::rotation<Planar>(0.6), gradient(1.1, 0, 0, 1.1, 0.95), gradient(0, -1.1, 1.1, 0, 1)}) {
     CHECK(verify::material_tangent<Planar>(elastic, {G, product(step, G)}).by_differences < 1e-9);
     if (determinant(step) > 1.01) {
       CHECK(flows(linear, {G, product(step, G)}));
@@ -97,7 +89,7 @@ TEST_CASE("hypoelastic J2: tangent of a step that does not stretch, or equally i
 TEST_CASE("hypoelastic J2: a rotation turns the stress and does nothing else") {
   const auto before = verify::detail::preloaded<Real, Planar>(voce, {paths[0][0], F2::identity()}, 1);
   for (const Real angle : {0.3, pi / 2, 3.0}) {
-    const F2 Q = rotation(angle);
+    const F2 Q = verify::rotation<Planar>(angle);
     const auto after = voce.respond(product(Q, paths[0][0]), before, 1).state;
     const F2 expected = product(product(Q, before.tau.full()), transpose(Q));
     CHECK(verify::relative_error(after.tau.full().v, expected.v) < 1e-12);
@@ -167,7 +159,9 @@ TEST_CASE("hypoelastic and multiplicative J2 agree where elastic strains are sma
   compare([](Real t) { return shear(t); });
   compare([](Real t) { return gradient(std::exp(0.4 * t), 0, 0, std::exp(-0.4 * t), 1); });
   compare([](Real t) { return gradient(std::exp(0.4 * t), 0, 0, std::exp(-0.2 * t), std::exp(-0.2 * t)); });
-  compare([](Real t) { return product(rotation(2 * t), gradient(1 + 0.5 * t, 0.3 * t, 0, 1 / (1 + 0.5 * t), 1)); });
+  compare([](Real t) {
+    return product(verify::rotation<Planar>(2 * t), gradient(1 + 0.5 * t, 0.3 * t, 0, 1 / (1 + 0.5 * t), 1));
+  });
 }
 // Free sides by Newton's method on the law's own tangent, against the flow curve.
 TEST_CASE("hypoelastic J2 in uniaxial tension: the Kirchhoff stress is the flow stress at ln(stretch) - tau / young") {

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "planar.hpp"
+
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/material/hencky.hpp>
-#include <stickslip/verify/material.hpp>
 
 #include <doctest/doctest.h>
 
 namespace {
 
 using namespace stickslip;
-using F2 = Tensor<Real, Planar>;
 using Path = verify::DeformationPath<Planar>;
 
-F2 gradient(Real f11, Real f12, Real f21, Real f22, Real f33) {
-  F2 F;
-  F.v << f11, f12, f21, f22, f33;
-  return F;
-}
 const F2 one = F2::identity();
 
 const Hencky hencky{.young = 200e3, .poisson = 0.3};

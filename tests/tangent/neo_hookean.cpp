@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "planar.hpp"
+
 #include <stickslip/material/hencky.hpp>
 #include <stickslip/material/neo_hookean.hpp>
-#include <stickslip/verify/material.hpp>
 
 #include <doctest/doctest.h>
 
 namespace {
 
 using namespace stickslip;
-using F2 = Tensor<Real, Planar>;
 
-F2 gradient(Real f11, Real f12, Real f21, Real f22, Real f33) {
-  F2 F;
-  F.v << f11, f12, f21, f22, f33;
-  return F;
-}
 const NeoHookean rubber{.young = 6, .poisson = 0.4};
 const Real shear = 6 / 2.8, lame = 6 * 0.4 / (1.4 * 0.2);
 const std::vector<F2> gradients{gradient(1.2, 0.3, -0.1, 0.9, 1.1), gradient(0.5, 0.8, -0.6, 1.7, 0.7),

@@ -59,10 +59,7 @@ class Body {
     for (Index e = 0; e < mesh_.cell_count(); ++e) geometry_.push_back(cell_geometry(e));
     committed_.resize(mesh_.cells.size());
     trial_.resize(mesh_.cells.size());
-    if constexpr (stiff) {
-      dilatations_ = StiffRelations<dofs>(mesh_.cells.size());
-      converged_dilatations_.assign(mesh_.cells.size(), 0.0);
-    }
+    if constexpr (stiff) dilatations_ = StiffRelations<dofs>(mesh_.cells.size());
   }
 
   const MeshType& mesh() const { return mesh_; }
@@ -87,8 +84,7 @@ class Body {
 
   /// Begins an iteration: the stiff relations' values of the converged state become variables of their own.
   void begin_iteration() {
-    if constexpr (stiff)
-      for (std::size_t e = 0; e < mesh_.cells.size(); ++e) dilatations_[e].value = converged_dilatations_[e];
+    if constexpr (stiff) dilatations_.begin();
   }
   /// Makes the variables follow the change du of the displacements.
   void follow(const Field& du) {
@@ -135,8 +131,7 @@ class Body {
   /// Makes the memory of the last assembly the converged one.
   void commit() {
     std::swap(committed_, trial_);
-    if constexpr (stiff)
-      for (std::size_t e = 0; e < mesh_.cells.size(); ++e) converged_dilatations_[e] = dilatations_[e].value;
+    if constexpr (stiff) dilatations_.commit();
   }
 
   /// Calls visit(cell, point, F, state, weight) for the converged memory: F as the material sees it, weight the
@@ -206,8 +201,7 @@ class Body {
   Material material_;
   std::vector<Geometry> geometry_;
   PointMemory<State, Element::points> committed_, trial_;
-  [[no_unique_address]] Only<stiff, StiffRelations<dofs>, Kinematics> dilatations_;  // of the iteration
-  [[no_unique_address]] Only<stiff, std::vector<Real>, Element> converged_dilatations_;
+  [[no_unique_address]] Only<stiff, StiffRelations<dofs>, Element> dilatations_;
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dofs))>> slots_;
   ElementResult<Real, dofs, Element::points, State> result_;
 };

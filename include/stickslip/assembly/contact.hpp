@@ -57,7 +57,6 @@ template <int dim>
 struct ContactNodeState {
   Vec<Real, dim> force = Vec<Real, dim>::Zero();  ///< of the node on the tool [force]
   Real gap = 0;                                   ///< [length]
-  Real pressure = 0;                              ///< -t_N [force]
   Real slip = 0;                                  ///< slid distance so far [length]; 0 without friction
   bool touching = false;
 };
@@ -142,9 +141,7 @@ class ContactPair {
   }
 
   /// Begins an iteration: the pressures of the converged state become variables of their own.
-  void begin_iteration() {
-    for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_[k].value = states_[k].pressure;
-  }
+  void begin_iteration() { pressures_.begin(); }
   /// Makes the pressures follow the change du of the displacements.
   void follow(const Field& du) {
     for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_.follow(k, du.template segment<dim>(nodes_[k] * dim));
@@ -177,7 +174,6 @@ class ContactPair {
       ContactNodeState<dim>& state = trial_states_[k];
       state.gap = at.gap;
       state.touching = node.touching;
-      state.pressure = node.pressure.value;
       state.force.setZero();
       pressures_[k] = node.pressure;
       if constexpr (has_friction<Model>) {
@@ -226,6 +222,7 @@ class ContactPair {
   void commit() {
     if constexpr (remembers) std::swap(committed_, trial_);
     std::swap(states_, trial_states_);
+    pressures_.commit();
     force_ = trial_force_;
   }
 
@@ -270,7 +267,7 @@ class ContactPair {
   std::vector<Real> weight_;
   [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
   std::vector<ContactNodeState<dim>> states_, trial_states_;
-  StiffRelations<dim> pressures_;  // of the iteration
+  StiffRelations<dim> pressures_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dim))>> slots_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/linear_solver/eigen_map.hpp>
 #include <stickslip/linear_solver/iteration_limits.hpp>
 #include <stickslip/linear_solver/refinement.hpp>
 #include <stickslip/policy/linear_solver.hpp>
@@ -8,7 +9,6 @@
 #include <Eigen/IterativeLinearSolvers>
 
 #include <algorithm>
-#include <vector>
 
 namespace stickslip {
 
@@ -25,8 +25,7 @@ class Bicgstab {
 
   void analyze(const SparseView& pattern) {
     refinement_.resize(pattern.size);
-    const std::vector<Real> zeros(static_cast<std::size_t>(pattern.nonzeros()), 0.0);
-    solver_.analyzePattern(map(pattern, zeros.data()));
+    analyze_pattern(solver_, pattern);
     tighten(false);
   }
 
@@ -48,11 +47,6 @@ class Bicgstab {
   Index iterations() const { return iterations_; }
 
  private:
-  using Matrix = Eigen::SparseMatrix<Real, Eigen::ColMajor, Index>;
-  static Eigen::Map<const Matrix> map(const SparseView& m, const Real* values) {
-    return {m.size, m.size, m.nonzeros(), m.column_start, m.row, values};
-  }
-
   // Near incompressibility and indefinite matrices need the tight factor, which is not much less than a whole one; the
   // loose one is made in a fraction of its time.
   void tighten(bool tight) {
@@ -61,7 +55,7 @@ class Bicgstab {
     solver_.preconditioner().setFillfactor(tight ? 10 : 2);
   }
   bool precondition() {
-    solver_.factorize(map(matrix_, matrix_.values));
+    solver_.factorize(eigen_map(matrix_));
     return solver_.preconditioner().info() == Eigen::Success;
   }
 
@@ -77,7 +71,7 @@ class Bicgstab {
     return solver_.info() == Eigen::Success;
   }
 
-  Eigen::BiCGSTAB<Matrix, Eigen::IncompleteLUT<Real, Index>> solver_;
+  Eigen::BiCGSTAB<EigenMatrix, Eigen::IncompleteLUT<Real, Index>> solver_;
   SparseView matrix_{};
   Refinement refinement_;
   Index iterations_ = 0;

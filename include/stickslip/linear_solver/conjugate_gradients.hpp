@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/linear_solver/eigen_map.hpp>
 #include <stickslip/linear_solver/iteration_limits.hpp>
 #include <stickslip/linear_solver/refinement.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
 #include <Eigen/IterativeLinearSolvers>
-
-#include <vector>
 
 namespace stickslip {
 
@@ -28,15 +27,14 @@ class ConjugateGradients {
     for (Index j = 0; j < pattern.size; ++j)
       complete_diagonal_ &=
           pattern.column_start[j] < pattern.column_start[j + 1] && pattern.row[pattern.column_start[j]] == j;
-    const std::vector<Real> zeros(static_cast<std::size_t>(pattern.nonzeros()), 0.0);
-    preconditioner_.analyzePattern(map(pattern, zeros.data()));
+    analyze_pattern(preconditioner_, pattern);
   }
 
   /// `done` says that there is a preconditioner: only `solve` finds out whether the matrix is definite.
   Factorization factorize(const SparseView& matrix) {
     if (!complete_diagonal_) return Factorization::failed;  // Eigen would take another entry for it
     matrix_ = matrix;
-    preconditioner_.factorize(map(matrix, matrix.values));
+    preconditioner_.factorize(eigen_map(matrix));
     return preconditioner_.info() == Eigen::Success ? Factorization::done : Factorization::failed;
   }
 
@@ -50,13 +48,8 @@ class ConjugateGradients {
   Index iterations() const { return iterations_; }
 
  private:
-  using Matrix = Eigen::Map<const Eigen::SparseMatrix<Real, Eigen::ColMajor, Index>>;
-  static Matrix map(const SparseView& m, const Real* values) {
-    return Matrix(m.size, m.size, m.nonzeros(), m.column_start, m.row, values);
-  }
-
   bool iterate(const Real* right_hand_side, Real* solution) {
-    const Matrix matrix = map(matrix_, matrix_.values);
+    const EigenMap matrix = eigen_map(matrix_);
     Eigen::Map<Field> x(solution, matrix_.size);
     x.setZero();
     residual_ = Eigen::Map<const Field>(right_hand_side, matrix_.size);

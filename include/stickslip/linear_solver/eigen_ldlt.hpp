@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/linear_solver/eigen_map.hpp>
 #include <stickslip/linear_solver/refinement.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
 #include <Eigen/SparseCholesky>
-
-#include <vector>
 
 namespace stickslip {
 
@@ -20,12 +19,10 @@ class EigenLdlt {
 
   void analyze(const SparseView& pattern) {
     refinement_.resize(pattern.size);
-    const std::vector<Real> zeros(static_cast<std::size_t>(pattern.nonzeros()), 0.0);
-    solver_.analyzePattern(
-        Map(pattern.size, pattern.size, pattern.nonzeros(), pattern.column_start, pattern.row, zeros.data()));
+    analyze_pattern(solver_, pattern);
   }
   Factorization factorize(const SparseView& matrix) {
-    solver_.factorize(Map(matrix.size, matrix.size, matrix.nonzeros(), matrix.column_start, matrix.row, matrix.values));
+    solver_.factorize(eigen_map(matrix));
     if (solver_.info() != Eigen::Success || !solver_.vectorD().allFinite()) return Factorization::failed;
     matrix_ = matrix;
     indefinite_ = !(solver_.vectorD().minCoeff() > 0);
@@ -38,15 +35,13 @@ class EigenLdlt {
   }
 
  private:
-  using Map = Eigen::Map<const Eigen::SparseMatrix<Real, Eigen::ColMajor, Index>>;
-
   bool backsolve(const Real* right_hand_side, Real* solution) {
     const auto n = solver_.rows();
     Eigen::Map<Field>(solution, n) = solver_.solve(Eigen::Map<const Field>(right_hand_side, n));
     return solver_.info() == Eigen::Success;
   }
 
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real, Eigen::ColMajor, Index>, Eigen::Lower> solver_;
+  Eigen::SimplicialLDLT<EigenMatrix, Eigen::Lower> solver_;
   SparseView matrix_{};
   bool indefinite_ = false;
   Refinement refinement_;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/linear_solver/eigen_map.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
 #include <Eigen/SparseLU>
-
-#include <vector>
 
 namespace stickslip {
 
@@ -16,13 +15,9 @@ class EigenLu {
   static constexpr Symmetry accepts = Symmetry::general;
   static constexpr Symmetry storage = Symmetry::general;
 
-  void analyze(const SparseView& pattern) {
-    const std::vector<Real> zeros(static_cast<std::size_t>(pattern.nonzeros()), 0.0);
-    solver_.analyzePattern(
-        Map(pattern.size, pattern.size, pattern.nonzeros(), pattern.column_start, pattern.row, zeros.data()));
-  }
+  void analyze(const SparseView& pattern) { analyze_pattern(solver_, pattern); }
   Factorization factorize(const SparseView& matrix) {
-    solver_.factorize(Map(matrix.size, matrix.size, matrix.nonzeros(), matrix.column_start, matrix.row, matrix.values));
+    solver_.factorize(eigen_map(matrix));
     return solver_.info() == Eigen::Success ? Factorization::done : Factorization::failed;
   }
   bool solve(const Real* right_hand_side, Real* solution) {
@@ -32,8 +27,7 @@ class EigenLu {
   }
 
  private:
-  using Map = Eigen::Map<const Eigen::SparseMatrix<Real, Eigen::ColMajor, Index>>;
-  Eigen::SparseLU<Eigen::SparseMatrix<Real, Eigen::ColMajor, Index>, Eigen::COLAMDOrdering<Index>> solver_;
+  Eigen::SparseLU<EigenMatrix, Eigen::COLAMDOrdering<Index>> solver_;
 };
 
 }  // namespace stickslip

@@ -28,11 +28,20 @@ class StiffRelations {
   /// of descent, but not at their stiffness, which is what is to be kept out.
   static constexpr Real softness = 0.05;
 
-  explicit StiffRelations(std::size_t count = 0) : now_(count), start_(count, 0.0), step_(count, 0.0) {}
+  explicit StiffRelations(std::size_t count = 0)
+      : now_(count), converged_(count, 0.0), start_(count, 0.0), step_(count, 0.0) {}
 
   StiffRelation<Real, n>& operator[](std::size_t k) { return now_[k]; }
   const StiffRelation<Real, n>& operator[](std::size_t k) const { return now_[k]; }
 
+  /// Begins an iteration at the values of the converged state.
+  void begin() {
+    for (std::size_t k = 0; k < now_.size(); ++k) now_[k].value = converged_[k];
+  }
+  /// Makes the present values the converged ones.
+  void commit() {
+    for (std::size_t k = 0; k < now_.size(); ++k) converged_[k] = now_[k].value;
+  }
   /// Makes the value follow the change du of its displacements.
   void follow(std::size_t k, const Vec<Real, n>& du) {
     start_[k] = now_[k].value;
@@ -51,7 +60,7 @@ class StiffRelations {
 
  private:
   std::vector<StiffRelation<Real, n>> now_;
-  std::vector<Real> start_, step_;
+  std::vector<Real> converged_, start_, step_;
 };
 
 }  // namespace stickslip
