@@ -39,7 +39,7 @@ void write_mesh_data(const std::filesystem::path& path, const stickslip::Problem
       if (a == 1) out << '\n';
     }
     out << "\n\n";
-  }
+  });
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
@@ -50,14 +50,14 @@ std::string shot_name(double travel_mm);
 template <class Model>
 void write_tool_data(const std::filesystem::path& path, const stickslip::Problem<Model>& problem, double reach) {
   std::ofstream out(path);
-  for (const auto& pair : problem.contacts()) {
-    const auto pose = pair.contact().motion.at(problem.time());
-    for (const auto& p : pair.contact().tool.sample(reach / 200, reach)) {
+  problem.visit_contacts([&](const auto& pair) {
+    const auto pose = pair.motion().at(problem.time());
+    for (const auto& p : pair.tool().sample(reach / 200, reach)) {
       const stickslip::Vec<double, 2> x = pose.rotation * p + pose.translation;
       out << x[0] << ' ' << x[1] << " 0\n";
     }
     out << "\n\n";
-  }
+  });
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 

@@ -13,6 +13,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace stickslip {
@@ -67,6 +69,7 @@ class March {
   friend class Problem<Model>;
   March(Problem<Model>& problem, const MarchOptions& options);
   void advance();
+  Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
 
   Problem<Model>& problem_;
   MarchOptions options_;
@@ -97,19 +100,13 @@ class Problem {
     [[no_unique_address]] typename Model::Kinematics kinematics{};
     typename Model::Material material{};
     [[no_unique_address]] typename Model::Inertia inertia{};
-    [[no_unique_address]] Only<with_contact, std::vector<Contact<Model>>, Problem> contacts{};
+    [[no_unique_address]] Only<with_contact, Contacts<Model>, Problem> contacts{};
   };
 
   /// Throws std::invalid_argument, naming the input, before anything is computed.
   explicit Problem(Parameters parameters)
       : body_(std::move(parameters.body), validated(parameters.kinematics), validated(parameters.material)) {
-    if constexpr (with_contact)
-      for (const Contact<Model>& c : parameters.contacts) {
-        for (const auto& pair : pairs_)
-          if (pair.name() == (c.name.empty() ? c.side : c.name))
-            throw std::invalid_argument("two contacts are called \"" + pair.name() + "\"; give them names");
-        pairs_.emplace_back(c, body_.mesh(), body_.kinematics());
-      }
+    if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
     if constexpr (has_inertia<Model>) inertia_.emplace(body_, validated(parameters.inertia));
     u_.setZero(body_.mesh().node_count() * dim);
     last_increment_ = u_;
@@ -166,13 +163,20 @@ class Problem {
   const InertiaForces<Model>& inertia() const requires has_inertia<Model> { return *inertia_; }
   Index unknowns() const { return system_ ? system_->dofs().unknowns() : 0; }
 
-  /// The contact pair called `name`.
-  const ContactPair<Model>& contact(const std::string& name) const requires with_contact {
-    for (const auto& pair : pairs_)
-      if (pair.name() == name) return pair;
-    throw std::invalid_argument("there is no contact called \"" + name + "\"");
+  /// The contact called `name`.
+  const ContactRecord<dim>& contact(const std::string& name) const requires with_contact {
+    const ContactRecord<dim>* found = nullptr;
+    visit_contacts([&](const auto& pair) {
+      if (pair.name() == name) found = &pair;
+    });
+    if (!found) throw std::invalid_argument("there is no contact called \"" + name + "\"");
+    return *found;
   }
-  const auto& contacts() const requires with_contact { return pairs_; }
+  /// Calls visit(pair) for every ContactPair.
+  template <class Visit>
+  void visit_contacts(Visit&& visit) const requires with_contact {
+    for_each_contact(pairs_, visit);
+  }
   /// Force of the body on the tool of a contact [force]; in axisymmetry of the full turn.
   Vec<Real, dim> contact_force(const std::string& name) const requires with_contact { return contact(name).force(); }
   /// Sum of the support forces on the body at a side, in one component [force].
@@ -197,6 +201,26 @@ class Problem {
 
  private:
   friend class March<Model>;
+
+  template <class Friction>
+  void add_contacts(const std::vector<Contact<Model, Friction>>& contacts,
+                    std::vector<ContactPair<Model, Friction>>& pairs) requires with_contact {
+    for (const auto& c : contacts) {
+      visit_contacts([&](const auto& pair) {
+        if (pair.name() == (c.name.empty() ? c.side : c.name))
+          throw std::invalid_argument("two contacts are called \"" + pair.name() + "\"; give them names");
+      });
+      pairs.emplace_back(c, body_.mesh(), body_.kinematics());
+    }
+  }
+  template <class... Frictions>
+  void add_contacts(const std::tuple<std::vector<Contact<Model, Frictions>>...>& contacts,
+                    std::tuple<std::vector<ContactPair<Model, Frictions>>...>& pairs) requires with_contact {
+    [&]<std::size_t... i>(std::index_sequence<i...>) {
+      (add_contacts(std::get<i>(contacts), std::get<i>(pairs)), ...);
+    }
+    (std::index_sequence_for<Frictions...>());
+  }
 
   template <class P>
   static const P& validated(const P& parameters) {
@@ -243,16 +267,49 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
                                                         problem.driven_, problem.loads_);
     problem.reactions_.setZero(problem.u_.size());
     if constexpr (has_contact<Model>)
-      if (problem.time_ == 0)
-        for (auto& pair : problem.pairs_)
+      if (problem.time_ == 0) {
+        for_each_contact(problem.pairs_, [&](auto& pair) {
           if (const Trouble t = pair.start(problem.body_.mesh(), problem.u_, problem.time_))
             throw std::invalid_argument("contact \"" + pair.name() +
                                         "\": the tool's position or the distance to it is not finite at the start");
+        });
+        if (const Trouble t = problem.system_->measure(problem.u_))
+          throw std::invalid_argument(std::string("the start is not a state: ") + describe(t.cause));
+      }
     if constexpr (has_inertia<Model>)
       if (problem.time_ == 0)
         if (const Trouble t = problem.system_->start(problem.u_, problem.time_))
           throw std::invalid_argument(std::string("the start is not a state: ") + describe(t.cause));
   }
+}
+
+/// Passes over a step whose first one has converged, until another one would change nothing beyond the tolerance
+/// (theory.md, section 5.8). Their iterations are added to `newton`, but step control looks at those of the first pass.
+template <class Model>
+Index March<Model>::pass_again([[maybe_unused]] Field& u, [[maybe_unused]] Real time, [[maybe_unused]] Real dt,
+                               [[maybe_unused]] NewtonReport& newton) {
+  Index passes = 1;
+  if constexpr (takes_passes<Model>()) {
+    System<Model>& system = *problem_.system_;
+    Real before = 0;
+    for (Real now = system.unsettled(); now > options_.pass_tolerance; now = system.unsettled()) {
+      if (passes == options_.max_passes) {
+        newton.trouble = {Cause::passes_failed, {}};
+        break;
+      }
+      // Multipliers settle by a factor that falls with the stiffness, so that no value of it need be asked for.
+      if (before > 0 && now > 0.25 * before) system.stiffen(4);
+      before = now;
+      system.renew();
+      const NewtonReport again = newton_.resume(system, u, time, dt);
+      ++passes;
+      newton.iterations += again.iterations;
+      newton.residual = again.residual;
+      newton.trouble = again.trouble;
+      if (newton.trouble) break;
+    }
+  }
+  return passes;
 }
 
 template <class Model>
@@ -286,6 +343,7 @@ void March<Model>::advance() {
       extrapolate = true;
     }
     Trouble trouble = system.impose(time, u);
+    if constexpr (takes_passes<Model>()) system.begin_passes();
     NewtonReport newton;
     if (trouble) {
       newton.trouble = trouble;
@@ -296,6 +354,11 @@ void March<Model>::advance() {
       u = problem_.u_;
       newton = newton_.solve(system, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
     }
+    Index passes = 1;
+    const Index first_iterations = newton.iterations;
+    if constexpr (takes_passes<Model>())
+      if (!newton.trouble) passes = pass_again(u, time, dt, newton);
+    report_.passes += passes;
     report_.iterations += newton.iterations;
     report_.work = newton_.counts;
     report_.timings = system.timings;
@@ -315,7 +378,7 @@ void March<Model>::advance() {
     if (!newton.trouble) {
       const ContactSummary contact = system.contact_summary();
       const Real lag = contact.bound > 0 ? contact.lag / contact.bound : 0;
-      control_.accept(time, newton.iterations, error, options_.lag_tolerance > 0 ? lag / options_.lag_tolerance : 0);
+      control_.accept(time, first_iterations, error, options_.lag_tolerance > 0 ? lag / options_.lag_tolerance : 0);
       system.commit();
       if constexpr (has_inertia<Model>) {
         problem_.increment_before_.swap(problem_.last_increment_);
@@ -332,6 +395,7 @@ void March<Model>::advance() {
                .dt = dt,
                .iterations = newton.iterations,
                .rejected = rejected,
+               .passes = passes,
                .residual = newton.residual,
                .contact = contact,
                .lag = lag,

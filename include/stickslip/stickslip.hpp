@@ -8,8 +8,10 @@
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
+#include <stickslip/enforcement/augmented_lagrangian.hpp>
 #include <stickslip/enforcement/no_contact.hpp>
 #include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/anisotropic_coulomb.hpp>
 #include <stickslip/friction/capped_coulomb.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>

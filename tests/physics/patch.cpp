@@ -56,7 +56,7 @@ Real pressure_spread(PenaltyPer per) {
   if constexpr (!M::Kinematics::hoop) p.hold("left", 0);
   auto march = p.march({.end = 1, .steps = 2, .tolerance = 1e-11});
   CHECK(bool(march.finish()));
-  const auto& pair = p.contacts()[0];
+  const auto& pair = p.contact("top");
   Real low = 1e300, high = -1e300;
   for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
     CHECK(pair.states()[k].touching);

@@ -5,27 +5,44 @@
 #include <stickslip/assembly/facet.hpp>
 #include <stickslip/assembly/sparse_matrix.hpp>
 #include <stickslip/geometry/pose.hpp>
-#include <stickslip/geometry/profile.hpp>
+#include <stickslip/geometry/tool.hpp>
 #include <stickslip/mesh/mesh.hpp>
 #include <stickslip/policy/model.hpp>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace stickslip {
 
-/// A side of the body against a rigid tool: what the user says of it.
+/// The kind of tool of a bundle: `Model::Tool`, or what there is of its dimension.
 template <class Model>
+struct ToolKind {
+  using type = rigid::Tool<Model::Kinematics::dim>;
+};
+template <class Model>
+  requires requires {
+    typename Model::Tool;
+  }
+struct ToolKind<Model> {
+  using type = typename Model::Tool;
+};
+template <class Model>
+using ToolOf = typename ToolKind<Model>::type;
+
+/// A side of the body against a rigid tool: what the user says of it. `Friction` is the bundle's, or one of its
+/// PerContact list.
+template <class Model, class Friction = typename Model::Friction>
 struct Contact {
   static constexpr int dim = Model::Kinematics::dim;
 
   std::string side;             ///< named side of the mesh
-  rigid::Profile tool;          ///< in its own frame
+  ToolOf<Model> tool;           ///< in its own frame
   rigid::Motion<dim> motion{};  ///< the frame's pose over time
-  [[no_unique_address]] Only<has_friction<Model>, typename Model::Friction::Law, Contact>
+  [[no_unique_address]] Only<Model::Enforcement::active && Friction::active, typename Friction::Law, Contact>
       friction{};                             ///< parameters of the law
   typename Model::Enforcement enforcement{};  ///< parameters of the enforcement
   std::string name = "";  ///< for results; the side's name if empty. Not {}: GCC 12 breaks down where it is left out
@@ -59,55 +76,16 @@ struct ContactNodeState {
   Real gap = 0;                                   ///< [length]
   Real slip = 0;                                  ///< slid distance so far [length]; 0 without friction
   bool touching = false;
+  bool sliding = false;
 };
 
-/// A side of the body in contact with one rigid tool: memory of its nodes and the loop over them.
-template <class Model>
-class ContactPair {
+/// A side of the body in contact with one tool, whatever the law: its nodes and what happened to them.
+template <int dim>
+class ContactRecord {
  public:
-  using Friction = typename Model::Friction;
-  using Enforcement = typename Model::Enforcement;
-  static constexpr int dim = Model::Kinematics::dim;
-  using Memory = NodeMemory<Real, dim, Enforcement, Friction>;
-  using Matrix = SparseMatrix<matrix_storage<Model>>;
-  static constexpr bool remembers = !std::is_empty_v<Memory>;
-  /// Whether the friction law looks at the area that a node carries.
-  static constexpr bool takes_area = [] {
-    if constexpr (has_friction<Model>)
-      return depends_on_area<typename Friction::Law>();
-    else
-      return false;
-  }();
-  /// Bytes that a contact node keeps for one state (there are two: converged and trial).
-  static constexpr std::size_t bytes_per_node = remembers ? sizeof(Memory) : 0;
-
-  template <class MeshType>
-  ContactPair(const Contact<Model>& contact, const MeshType& mesh, const typename Model::Kinematics& kinematics)
-      : contact_(contact),
-        nodes_(mesh.side(contact.side).nodes),
-        weight_(nodes_.size(), 0.0),
-        states_(nodes_.size()),
-        trial_states_(nodes_.size()),
-        pressures_(nodes_.size()) {
-    if (contact_.name.empty()) contact_.name = contact_.side;
-    if (contact_.tool.empty())
-      throw std::invalid_argument("contact \"" + contact_.name + "\": the tool has no surface");
-    if constexpr (requires { contact_.enforcement.validate(); }) contact_.enforcement.validate();
-    if constexpr (has_friction<Model>)
-      if constexpr (requires { contact_.friction.validate(); }) contact_.friction.validate();
-    if constexpr (has_friction<Model>)
-      if (!(contact_.enforcement.stick_stiffness(1) > 0))
-        throw std::invalid_argument("contact \"" + contact_.name +
-                                    "\": friction needs a positive tangential stiffness");
-    if constexpr (remembers) {
-      committed_.resize(nodes_.size());
-      trial_.resize(nodes_.size());
-    }
-    weigh(mesh, kinematics);
-  }
-
-  const std::string& name() const { return contact_.name; }
-  const Contact<Model>& contact() const { return contact_; }
+  const std::string& name() const { return name_; }
+  const std::string& side() const { return side_; }
+  const rigid::Motion<dim>& motion() const { return motion_; }
   const std::vector<Index>& nodes() const { return nodes_; }
   /// The nodes at the converged state.
   const std::vector<ContactNodeState<dim>>& states() const { return states_; }
@@ -116,9 +94,109 @@ class ContactPair {
   /// Total force on the tool at the converged state.
   const Vec<Real, dim>& force() const { return force_; }
 
+ protected:
+  ContactRecord(std::string name, std::string side, rigid::Motion<dim> motion, std::vector<Index> nodes)
+      : name_(name.empty() ? side : std::move(name)),
+        side_(std::move(side)),
+        motion_(std::move(motion)),
+        nodes_(std::move(nodes)),
+        states_(nodes_.size()),
+        trial_states_(nodes_.size()) {}
+
+  std::string name_, side_;
+  rigid::Motion<dim> motion_;
+  std::vector<Index> nodes_;
+  std::vector<ContactNodeState<dim>> states_, trial_states_;
+  ContactSummary summary_;
+  Vec<Real, dim> force_ = Vec<Real, dim>::Zero(), trial_force_ = Vec<Real, dim>::Zero();
+};
+
+/// A side of the body in contact with one rigid tool: memory of its nodes and the loop over them.
+template <class Model, class Friction_ = typename Model::Friction>
+class ContactPair : public ContactRecord<Model::Kinematics::dim> {
+ public:
+  using Friction = Friction_;
+  using Enforcement = typename Model::Enforcement;
+  using Tool = ToolOf<Model>;
+  static constexpr int dim = Model::Kinematics::dim;
+  static_assert(RigidTool<Tool, dim>,
+                "stickslip: the bundle's Tool does not meet RigidTool of its dimension; see docs/policies.md, section "
+                "Tool.");
+  using Memory = NodeMemory<Real, dim, Enforcement, Friction>;
+  using Matrix = SparseMatrix<matrix_storage<Model>>;
+  static constexpr bool with_friction = Friction::active;
+  static constexpr bool remembers = !std::is_empty_v<Memory>;
+  /// Whether steps take several passes for this pair.
+  static constexpr bool passes = is_augmented<Enforcement> || friction_is_iterated<Friction>;
+  /// Whether the friction law looks at the area that a node carries.
+  static constexpr bool takes_area = [] {
+    if constexpr (with_friction)
+      return depends_on_area<typename Friction::Law>();
+    else
+      return false;
+  }();
+  /// Bytes that a contact node keeps for one state (there are two: converged and trial).
+  static constexpr std::size_t bytes_per_node = remembers ? sizeof(Memory) : 0;
+
+  template <class MeshType>
+  ContactPair(const Contact<Model, Friction>& contact, const MeshType& mesh,
+              const typename Model::Kinematics& kinematics)
+      : ContactRecord<dim>(contact.name, contact.side, contact.motion, mesh.side(contact.side).nodes),
+        tool_(contact.tool),
+        friction_(contact.friction),
+        enforcement_(contact.enforcement),
+        weight_(nodes_.size(), 0.0),
+        pressures_(nodes_.size()) {
+    if (tool_.empty()) throw std::invalid_argument("contact \"" + name_ + "\": the tool has no surface");
+    if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
+    if constexpr (with_friction)
+      if constexpr (requires { friction_.validate(); }) friction_.validate();
+    if constexpr (with_friction)
+      if (!(enforcement_.stick_stiffness(1) > 0))
+        throw std::invalid_argument("contact \"" + name_ + "\": friction needs a positive tangential stiffness");
+    if constexpr (remembers) {
+      committed_.resize(nodes_.size());
+      trial_.resize(nodes_.size());
+    }
+    if constexpr (passes) {
+      renewed_.resize(nodes_.size());
+      spacing_ = spacings(mesh, this->side_);
+    }
+    weigh(mesh, kinematics);
+  }
+
+  const Tool& tool() const { return tool_; }
+  const Enforcement& enforcement() const { return enforcement_; }
+
   void connect(const Dofs& equations, const Matrix& matrix) {
     slots_.clear();
     for (const Index n : nodes_) slots_.push_back(matrix.map(equations, components(n)));
+  }
+
+  /// Whether the penalties are in parts of the body's stiffness, which `measure` must tell before the first assembly.
+  bool needs_stiffness() const { return enforcement_.per == PenaltyPer::stiffness; }
+  /// Takes the body's stiffness at the nodes from its tangent: the mean over the free components; where a node has
+  /// none, the mean over the side.
+  void measure(const Dofs& equations, const Matrix& tangent) {
+    Real sum = 0;
+    Index found = 0;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      Real trace = 0;
+      Index free = 0;
+      for (const Index c : components(nodes_[k]))
+        if (const Index e = equations.equation(c); e != Dofs::constrained) {
+          trace += tangent.diagonal(e);
+          ++free;
+        }
+      weight_[k] = free > 0 && trace > 0 ? trace / free : 0;
+      sum += weight_[k];
+      found += weight_[k] > 0 ? 1 : 0;
+    }
+    if (found == 0)
+      throw std::invalid_argument("contact \"" + name_ +
+                                  "\": the body has no stiffness at any of its nodes; give the penalty another unit");
+    for (Real& w : weight_)
+      if (w == 0) w = sum / found;
   }
 
   static std::array<Index, static_cast<std::size_t>(dim)> components(Index node) {
@@ -130,12 +208,12 @@ class ContactPair {
   /// Takes the positions at `time` for the start of sliding.
   template <class MeshType>
   Trouble start(const MeshType& mesh, const Field& u, Real time) {
-    const rigid::Pose<dim> pose = contact_.motion.at(time);
+    const rigid::Pose<dim> pose = motion_.at(time);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
-      const SurfacePoint<Real, dim> at = closest(mesh, u, pose, nodes_[k]);
+      const SurfacePoint<Real, dim> at = seen_from_tool(mesh, u, pose, nodes_[k]);
       if (!std::isfinite(at.gap)) return {Cause::not_finite, {Place::Kind::contact_node, nodes_[k]}};
       states_[k].gap = at.gap;
-      if constexpr (has_friction<Model>) committed_[k].friction.place = at.place;
+      if constexpr (with_friction) committed_[k].friction.place = at.place;
     }
     return {};
   }
@@ -154,29 +232,33 @@ class ContactPair {
   template <class MeshType>
   Trouble assemble(const MeshType& mesh, const Field& u, Real time, Real dt, const Field* driven, Field& forces,
                    Field* excess, Matrix& matrix) {
-    const rigid::Pose<dim> pose = contact_.motion.at(time);
+    const rigid::Pose<dim> pose = motion_.at(time);
     summary_ = {};
     trial_force_.setZero();
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const Index n = nodes_[k];
-      const SurfacePoint<Real, dim> at = closest(mesh, u, pose, n);
+      SurfacePoint<Real, dim> at = seen_from_tool(mesh, u, pose, n);
       if (!std::isfinite(at.gap)) return {Cause::not_finite, {Place::Kind::contact_node, n}};
       Memory old{};
-      if constexpr (remembers) old = committed_[k];
-      Vec<Real, dim - 1> slipped = Vec<Real, dim - 1>::Zero();
-      if constexpr (has_friction<Model>) slipped[0] = contact_.tool.difference(at.place[0], old.friction.place[0]);
-      const Real pressure = excess ? pressures_[k].value : settled_pressure(contact_.enforcement, weight_[k], at, old);
-      const auto node = contact_node<Real, dim>(contact_.enforcement, contact_.friction, Friction{}, weight_[k], at,
-                                                slipped, old, pressure, dt, area(k));
+      if constexpr (remembers) old = start_of_pass(k);
+      Vec<Real, place_components<dim>> slipped = Vec<Real, place_components<dim>>::Zero();
+      if constexpr (with_friction) slipped = moved<Real, dim>(tool_, at.place, old.friction.place);
+      const Real settled = settled_pressure(enforcement_, weight_[k], at, old);
+      const Real pressure = excess ? pressures_[k].value : settled;
+      if constexpr (with_friction && dim == 3)
+        if (settled > 0 || pressure > 0) add_curvature_of_place(tool_, on_tool(mesh, u, pose, n), at);
+      const auto node = contact_node<Real, dim>(enforcement_, friction_, Friction{}, weight_[k], at, slipped, old,
+                                                pressure, dt, area(k));
       if (node.cause != Cause::none) return {node.cause, {Place::Kind::contact_node, n}};
       if constexpr (remembers) trial_[k] = node.memory;
 
       ContactNodeState<dim>& state = trial_states_[k];
       state.gap = at.gap;
       state.touching = node.touching;
+      state.sliding = node.sliding;
       state.force.setZero();
       pressures_[k] = node.pressure;
-      if constexpr (has_friction<Model>) {
+      if constexpr (with_friction) {
         state.slip = node.memory.friction.slip;
         summary_.max_slip = std::max(summary_.max_slip, state.slip);
       }
@@ -205,15 +287,52 @@ class ContactPair {
     return {};
   }
 
+  /// Begins the passes of a step at the multipliers and the bounds of the converged state.
+  void begin_passes() requires passes { renewed_ = committed_; }
+  /// Starts the next pass from where the last one ended: its tractions for multipliers, its pressures in the bounds.
+  /// Only the places and the slid distances stay those of the converged state.
+  void renew() requires passes {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      Memory& next = renewed_[k];
+      if constexpr (is_augmented<Enforcement>) next.enforcement = trial_[k].enforcement;
+      if constexpr (with_friction) {
+        if constexpr (is_augmented<Enforcement>) next.friction.traction = trial_[k].friction.traction;
+        if constexpr (friction_is_iterated<Friction>) next.friction.pressure = trial_[k].friction.pressure;
+      }
+    }
+  }
+  /// How far the last pass was from what another one would give: the largest gap of a pressed node, and the largest
+  /// reversible slide of a sticking one, over the distance of neighbouring nodes; and the lag of the bounds.
+  Real unsettled() const requires passes {
+    Real largest = 0;
+    if constexpr (is_augmented<Enforcement>)
+      for (std::size_t k = 0; k < nodes_.size(); ++k) {
+        const ContactNodeState<dim>& state = trial_states_[k];
+        if (!state.touching) continue;
+        largest = std::max(largest, std::abs(state.gap) / spacing_[k]);
+        if constexpr (with_friction)
+          if (!state.sliding)
+            largest = std::max(largest, (trial_[k].friction.traction - renewed_[k].friction.traction).norm() /
+                                            (enforcement_.stick_stiffness(weight_[k]) * spacing_[k]));
+      }
+    if constexpr (friction_is_iterated<Friction>)
+      if (summary_.bound > 0) largest = std::max(largest, summary_.lag / summary_.bound);
+    return largest;
+  }
+  /// Stiffens the enforcement, where the passes do not settle quickly enough.
+  void stiffen(Real factor) requires(is_augmented<Enforcement>) {
+    for (Real& w : weight_) w *= factor;
+  }
+
   /// Energy that penetration and sticking store at the converged state, where the enforcement tells it.
   Real stored_energy() const requires requires(const Enforcement& e) { e.energy(Real(), Real()); }
   {
     Real sum = 0;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       if (!states_[k].touching) continue;
-      sum += contact_.enforcement.energy(states_[k].gap, weight_[k]);
-      if constexpr (has_friction<Model>)
-        sum += 0.5 * committed_[k].friction.traction.squaredNorm() / contact_.enforcement.stick_stiffness(weight_[k]);
+      sum += enforcement_.energy(states_[k].gap, weight_[k]);
+      if constexpr (with_friction)
+        sum += 0.5 * committed_[k].friction.traction.squaredNorm() / enforcement_.stick_stiffness(weight_[k]);
     }
     return sum;
   }
@@ -227,11 +346,30 @@ class ContactPair {
   }
 
  private:
+  using ContactRecord<dim>::name_, ContactRecord<dim>::motion_, ContactRecord<dim>::nodes_, ContactRecord<dim>::states_,
+      ContactRecord<dim>::trial_states_, ContactRecord<dim>::summary_, ContactRecord<dim>::force_,
+      ContactRecord<dim>::trial_force_;
+
   template <class MeshType>
-  SurfacePoint<Real, dim> closest(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose,
-                                  Index node) const {
+  static Vec<Real, dim> on_tool(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose, Index node) {
     const Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(node)] + u.template segment<dim>(node * dim);
-    return contact_.tool.closest(Vec<Real, dim>(pose.rotation.transpose() * (x - pose.translation)));
+    return pose.rotation.transpose() * (x - pose.translation);
+  }
+  // Distance, and the place where friction asks for it.
+  template <class MeshType>
+  SurfacePoint<Real, dim> seen_from_tool(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose,
+                                         Index node) const {
+    const Vec<Real, dim> x = on_tool(mesh, u, pose, node);
+    SurfacePoint<Real, dim> at = distance_to<Real, dim>(tool_, x);
+    if constexpr (with_friction && dim == 3) add_place(x, at);
+    return at;
+  }
+
+  const Memory& start_of_pass(std::size_t k) const requires remembers {
+    if constexpr (passes)
+      return renewed_[k];
+    else
+      return committed_[k];
   }
 
   // Reference area that a node carries, where the friction law asks for it.
@@ -245,34 +383,64 @@ class ContactPair {
   // The measure behind one unit of nodal stiffness, and the areas.
   template <class MeshType>
   void weigh(const MeshType& mesh, const typename Model::Kinematics& kinematics) {
-    const PenaltyPer per = contact_.enforcement.per;
+    const PenaltyPer per = enforcement_.per;
     if (per == PenaltyPer::node) std::fill(weight_.begin(), weight_.end(), 1.0);
     if (per == PenaltyPer::unit_depth)
       std::fill(weight_.begin(), weight_.end(),
                 Model::Kinematics::hoop ? 2 * pi : kinematics.measure(mesh.nodes[static_cast<std::size_t>(nodes_[0])]));
-    const auto add_areas = [&](std::vector<Real>& sums) {
-      for (std::size_t k = 0; k < nodes_.size(); ++k)
-        for (const auto& facet : mesh.side(contact_.side).facets)
-          sums[k] += facet_share(mesh, kinematics, facet, nodes_[k]);
-    };
-    if (per == PenaltyPer::area) add_areas(weight_);
-    if constexpr (takes_area) {
-      areas_.assign(nodes_.size(), 0.0);
-      add_areas(areas_);
-    }
+    if (per == PenaltyPer::area) weight_ = nodal_areas(mesh, kinematics, this->side_);
+    if constexpr (takes_area) areas_ = nodal_areas(mesh, kinematics, this->side_);
   }
 
-  Contact<Model> contact_;
-  std::vector<Index> nodes_;
+  Tool tool_;
+  [[no_unique_address]] Only<with_friction, typename Friction::Law, Contact<Model, Friction>> friction_;
+  Enforcement enforcement_;
   std::vector<Real> weight_;
   [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
-  std::vector<ContactNodeState<dim>> states_, trial_states_;
   StiffRelations<dim> pressures_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;
+  [[no_unique_address]] Only<passes, std::vector<Memory>, Friction> renewed_;  // where the present pass starts
+  [[no_unique_address]] Only<passes, std::vector<Real>, Enforcement> spacing_;
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dim))>> slots_;
-  ContactSummary summary_;
-  Vec<Real, dim> force_ = Vec<Real, dim>::Zero(), trial_force_ = Vec<Real, dim>::Zero();
 };
+
+namespace detail {
+template <class Model, class Friction>
+struct ContactLists {
+  using Contacts = std::vector<Contact<Model>>;
+  using Pairs = std::vector<ContactPair<Model>>;
+};
+template <class Model, class... Frictions>
+struct ContactLists<Model, PerContact<Frictions...>> {
+  using Contacts = std::tuple<std::vector<Contact<Model, Frictions>>...>;
+  using Pairs = std::tuple<std::vector<ContactPair<Model, Frictions>>...>;
+};
+}  // namespace detail
+
+/// The contacts of a bundle as the user gives them: a list, or one list a kind of friction.
+template <class Model>
+using Contacts = typename detail::ContactLists<Model, typename Model::Friction>::Contacts;
+/// The pairs that they become.
+template <class Model>
+using ContactPairs = typename detail::ContactLists<Model, typename Model::Friction>::Pairs;
+
+/// Calls visit on every entry of Contacts or ContactPairs.
+template <class T, class Visit>
+void for_each_contact(std::vector<T>& list, Visit&& visit) {
+  for (T& one : list) visit(one);
+}
+template <class T, class Visit>
+void for_each_contact(const std::vector<T>& list, Visit&& visit) {
+  for (const T& one : list) visit(one);
+}
+template <class... Lists, class Visit>
+void for_each_contact(std::tuple<Lists...>& lists, Visit&& visit) {
+  std::apply([&](auto&... list) { (for_each_contact(list, visit), ...); }, lists);
+}
+template <class... Lists, class Visit>
+void for_each_contact(const std::tuple<Lists...>& lists, Visit&& visit) {
+  std::apply([&](const auto&... list) { (for_each_contact(list, visit), ...); }, lists);
+}
 
 }  // namespace stickslip

@@ -4,6 +4,8 @@
 #include <stickslip/mesh/mesh.hpp>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace stickslip {
 
@@ -40,6 +42,45 @@ Real facet_share(const Mesh<3, nodes_per_cell>& mesh, const Kinematics& kinemati
   const V normal = cross(along, across), change = cross(along, twist) + cross(twist, across);
   const Real area = normal.norm();
   return (area - normal.dot(change) / (3 * area)) * kinematics.measure(centre);
+}
+
+/// Calls visit(place in the side's list of nodes, node, facet) for every node of every facet of a side.
+template <class MeshType, class Visit>
+void for_each_corner(const MeshType& mesh, const std::string& side, Visit&& visit) {
+  const auto& nodes = mesh.side(side).nodes;
+  std::vector<std::size_t> place(mesh.nodes.size(), nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k) place[static_cast<std::size_t>(nodes[k])] = k;
+  for (const auto& facet : mesh.side(side).facets)
+    for (const Index n : facet)
+      if (const std::size_t k = place[static_cast<std::size_t>(n)]; k < nodes.size()) visit(k, n, facet);
+}
+
+/// Reference areas that the nodes of a side carry, in the side's order.
+template <class MeshType, class Kinematics>
+std::vector<Real> nodal_areas(const MeshType& mesh, const Kinematics& kinematics, const std::string& side) {
+  std::vector<Real> areas(mesh.side(side).nodes.size(), 0.0);
+  for_each_corner(mesh, side, [&](std::size_t k, Index node, const auto& facet) {
+    areas[k] += facet_share(mesh, kinematics, facet, node);
+  });
+  return areas;
+}
+
+/// Distances of the nodes of a side from the nearest neighbour on a common facet; of a node without one, the extent of
+/// the side.
+template <class MeshType>
+std::vector<Real> spacings(const MeshType& mesh, const std::string& side) {
+  const auto& nodes = mesh.side(side).nodes;
+  const auto at = [&](Index n) -> const auto& {
+    return mesh.nodes[static_cast<std::size_t>(n)];
+  };
+  Real extent = 0;
+  for (const Index n : nodes) extent = std::max(extent, (at(n) - at(nodes[0])).norm());
+  std::vector<Real> lengths(nodes.size(), extent > 0 ? extent : 1);
+  for_each_corner(mesh, side, [&](std::size_t k, Index node, const auto& facet) {
+    for (const Index other : facet)
+      if (other != node) lengths[k] = std::min(lengths[k], (at(other) - at(node)).norm());
+  });
+  return lengths;
 }
 
 }  // namespace stickslip

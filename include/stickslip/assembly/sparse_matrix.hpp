@@ -69,6 +69,9 @@ class SparseMatrix {
     return m;
   }
 
+  /// The entry of an equation with itself.
+  Real diagonal(Index equation) const { return values_[static_cast<std::size_t>(slot(equation, equation))]; }
+
   void set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
 
   /// Adds a block; of a symmetric matrix its lower triangle is read.

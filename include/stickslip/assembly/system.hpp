@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace stickslip {
@@ -53,7 +54,8 @@ class System {
   using Matrix = typename BodyType::Matrix;
   static constexpr int dim = Model::Kinematics::dim;
   static constexpr bool with_contact = has_contact<Model>;
-  using Pairs = Only<with_contact, std::vector<ContactPair<Model>>, Matrix>;
+  static constexpr bool with_passes = takes_passes<Model>();
+  using Pairs = Only<with_contact, ContactPairs<Model>, Matrix>;
 
   static constexpr bool with_inertia = has_inertia<Model>;
   using Inertia = Only<with_inertia, InertiaForces<Model>, Body<Model>>;
@@ -75,14 +77,9 @@ class System {
     for (const SideValue& l : loads) {
       loads_.push_back({l.value, {}, {}});
       Real total = 0;
-      const auto& side = body.mesh().side(l.side);
-      for (const Index n : side.nodes) {
-        Real share = 0;
-        for (const auto& facet : side.facets) share += facet_share(body.mesh(), body.kinematics(), facet, n);
-        loads_.back().components.push_back(n * dim + l.component);
-        loads_.back().shares.push_back(share);
-        total += share;
-      }
+      for (const Index n : body.mesh().side(l.side).nodes) loads_.back().components.push_back(n * dim + l.component);
+      loads_.back().shares = nodal_areas(body.mesh(), body.kinematics(), l.side);
+      for (const Real share : loads_.back().shares) total += share;
       for (Real& s : loads_.back().shares) s /= total;
     }
     dofs_ = Dofs(components, constrained);
@@ -93,8 +90,7 @@ class System {
       }
     });
     body.connect(dofs_, matrix_);
-    if constexpr (with_contact)
-      for (auto& pair : pairs) pair.connect(dofs_, matrix_);
+    if constexpr (with_contact) for_each_contact(pairs, [&](auto& pair) { pair.connect(dofs_, matrix_); });
     if constexpr (with_inertia) inertia.connect(matrix_);
     for (Field* f : {&internal_, &contact_, &external_, &balance_, &excess_}) f->setZero(components);
     residual_.setZero(dofs_.unknowns());
@@ -131,8 +127,7 @@ class System {
     open_ = residual_ - share * open_;
     const Real imbalance = open_.norm();
     Real openness = body_.openness();
-    if constexpr (with_contact)
-      for (const auto& pair : pairs_) openness += pair.openness();
+    if constexpr (with_contact) for_each_contact(pairs_, [&](const auto& pair) { openness += pair.openness(); });
     norm_ = std::max({norm_, imbalance, share * excess_.norm()});
     merit_ = std::hypot(imbalance, share * std::sqrt(openness));
     return {};
@@ -140,20 +135,17 @@ class System {
   /// Begins an iteration at the converged state's values of the stiff relations.
   void begin_iteration() {
     body_.begin_iteration();
-    if constexpr (with_contact)
-      for (auto& pair : pairs_) pair.begin_iteration();
+    if constexpr (with_contact) for_each_contact(pairs_, [](auto& pair) { pair.begin_iteration(); });
   }
   /// Makes the stiff relations' variables follow the change du of the displacements that a linear solution gave.
   void follow(const Field& du) {
     body_.follow(du);
-    if constexpr (with_contact)
-      for (auto& pair : pairs_) pair.follow(du);
+    if constexpr (with_contact) for_each_contact(pairs_, [&](auto& pair) { pair.follow(du); });
   }
   /// Goes to a part of the changes of the last `follow`.
   void move(Real length) {
     body_.move(length);
-    if constexpr (with_contact)
-      for (auto& pair : pairs_) pair.move(length);
+    if constexpr (with_contact) for_each_contact(pairs_, [&](auto& pair) { pair.move(length); });
   }
   /// What a search along a linear solution must lower: the norm of the imbalance, open defects softened (eq. 6.9).
   Real merit() const { return merit_; }
@@ -162,6 +154,41 @@ class System {
   Trouble start(const Field& u, Real time) requires with_inertia {
     if (const Trouble t = assemble(u, time, 0, nullptr, nullptr)) return t;
     inertia_.start(dofs_, balance_);
+    return {};
+  }
+
+  /// Begins the passes of a step at the converged state's multipliers and bounds.
+  void begin_passes() requires with_passes {
+    for_each_pass([](auto& pair) { pair.begin_passes(); });
+  }
+  /// Starts the next pass from where the last one ended.
+  void renew() requires with_passes {
+    for_each_pass([](auto& pair) { pair.renew(); });
+  }
+  /// How far the last pass was from what another one would give [-]; see ContactPair.
+  Real unsettled() requires with_passes {
+    Real largest = 0;
+    for_each_pass([&](auto& pair) { largest = std::max(largest, pair.unsettled()); });
+    return largest;
+  }
+  /// Stiffens the enforcement by a factor, where it has multipliers: they settle sooner.
+  void stiffen(Real factor) requires with_passes {
+    for_each_contact(pairs_, [&](auto& pair) {
+      if constexpr (is_augmented<typename Model::Enforcement>) pair.stiffen(factor);
+    });
+  }
+
+  /// Tells contacts whose penalties are in parts of the body's stiffness what that is, at the displacements u.
+  Trouble measure(const Field& u) requires with_contact {
+    bool needed = false;
+    for_each_contact(pairs_, [&](const auto& pair) { needed = needed || pair.needs_stiffness(); });
+    if (!needed) return {};
+    internal_.setZero();
+    matrix_.set_zero();
+    if (const Trouble t = body_.assemble(u, 0, nullptr, internal_, nullptr, matrix_)) return t;
+    for_each_contact(pairs_, [&](auto& pair) {
+      if (pair.needs_stiffness()) pair.measure(dofs_, matrix_);
+    });
     return {};
   }
 
@@ -191,8 +218,7 @@ class System {
   /// What all contact pairs did in the last evaluation.
   ContactSummary contact_summary() const {
     ContactSummary sum;
-    if constexpr (with_contact)
-      for (const auto& pair : pairs_) sum.merge(pair.summary());
+    if constexpr (with_contact) for_each_contact(pairs_, [&](const auto& pair) { sum.merge(pair.summary()); });
     return sum;
   }
 
@@ -200,8 +226,7 @@ class System {
   void commit() {
     if constexpr (with_inertia) inertia_.commit();
     body_.commit();
-    if constexpr (with_contact)
-      for (auto& pair : pairs_) pair.commit();
+    if constexpr (with_contact) for_each_contact(pairs_, [](auto& pair) { pair.commit(); });
   }
 
   Timings timings;
@@ -230,6 +255,13 @@ class System {
     return {};
   }
 
+  template <class Visit>
+  void for_each_pass(Visit&& visit) {
+    for_each_contact(pairs_, [&](auto& pair) {
+      if constexpr (std::remove_reference_t<decltype(pair)>::passes) visit(pair);
+    });
+  }
+
   // Weight of the forces at the end of a step in the balance.
   Real static_share() const {
     if constexpr (with_inertia) return 1 - inertia_.scheme().alpha_f;
@@ -247,8 +279,11 @@ class System {
     if constexpr (with_contact) {
       const Stopwatch watch(timings.contact);
       contact_.setZero();
-      for (auto& pair : pairs_)
-        if (const Trouble t = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, excess, matrix_)) return t;
+      Trouble trouble;
+      for_each_contact(pairs_, [&](auto& pair) {
+        if (!trouble) trouble = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, excess, matrix_);
+      });
+      if (trouble) return trouble;
     }
     external_.setZero();
     for (const Load& l : loads_) {

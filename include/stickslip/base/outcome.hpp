@@ -16,6 +16,7 @@ enum class Cause {
   friction_failed,   ///< a friction law's slip did not converge, or it softens faster than its stiffness can follow
   singular_matrix,   ///< the factorisation met a zero pivot: a rigid-body mode or a limit point
   not_converged,     ///< the iteration limit was reached
+  passes_failed,     ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
   stalled,           ///< no step along the Newton direction lowers the residual
 };
 
@@ -36,6 +37,8 @@ inline const char* describe(Cause cause) {
       return "the tangent matrix is singular";
     case Cause::not_converged:
       return "the Newton iteration did not converge within its limit";
+    case Cause::passes_failed:
+      return "the passes over the step did not settle";
     case Cause::stalled:
       return "the Newton iteration stalled";
   }

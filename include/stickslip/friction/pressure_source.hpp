@@ -63,6 +63,13 @@ struct Extrapolated {
   }
 };
 
+/// The normal force of the last pass over the step: a symmetric tangent in each pass, and the current pressure's answer
+/// when the passes have converged (theory.md, section 5.8). With multipliers (AugmentedLagrangian) it is the multiplier
+/// of the current augmentation: the symmetric method of Simo & Laursen (1992).
+struct LagIterated : LastConverged {
+  static constexpr bool iterated = true;
+};
+
 /// Any friction law with its pressure taken from the last converged step.
 template <class Law>
 using Quasi = WithPressure<Law, LastConverged>;

@@ -127,21 +127,20 @@ void write_vtu(const std::filesystem::path& path, const Problem<Model>& problem)
   if constexpr (has_contact<Model>) {
     std::vector<Real> force(3 * nodes, 0.0), traction(3 * nodes, 0.0), slip(nodes, 0.0),
         gap(nodes, std::numeric_limits<Real>::infinity());
-    for (const auto& pair : problem.contacts())
+    problem.visit_contacts([&](const auto& pair) {
+      const std::vector<Real> areas = nodal_areas(mesh, problem.body().kinematics(), pair.side());
       for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
         const Index node = pair.nodes()[k];
         const auto n = static_cast<std::size_t>(node);
         const ContactNodeState<dim>& state = pair.states()[k];
-        Real area = 0;
-        for (const auto& facet : mesh.side(pair.contact().side).facets)
-          area += facet_share(mesh, problem.body().kinematics(), facet, node);
         for (std::size_t i = 0; i < dim; ++i) {
           force[3 * n + i] += state.force[static_cast<int>(i)];
-          traction[3 * n + i] += state.force[static_cast<int>(i)] / area;
+          traction[3 * n + i] += state.force[static_cast<int>(i)] / areas[k];
         }
         slip[n] = std::max(slip[n], state.slip);
         gap[n] = std::min(gap[n], state.gap);
       }
+    });
     for (Real& g : gap)
       if (std::isinf(g)) g = std::numeric_limits<Real>::quiet_NaN();
     detail::write_array(out, "Float64", "contact_force", 3, force);

@@ -14,6 +14,7 @@ enum class PenaltyPer {
   unit_depth,  ///< a node per radian (axisymmetric) or per unit thickness (plane strain)
   node,        ///< a node of the full turn or the full thickness
   area,        ///< reference area that the node carries
+  stiffness,   ///< the body's own stiffness at the node when the run begins: the numbers have no unit then
 };
 
 /// Normal force of a node on the tool and its derivative; of a node that an iteration holds off the tool, their smooth
@@ -22,6 +23,13 @@ template <class S>
 struct NormalForce {
   S value;  ///< t_N <= 0 in contact [force]
   S d_gap;  ///< [force / length]
+};
+
+/// Whether an enforcement has multipliers that passes over a step bring to their values: `augmented(pressure)` gives
+/// the memory for the next pass.
+template <class E>
+inline constexpr bool is_augmented = requires(const E& enforcement, const Real& pressure) {
+  enforcement.augmented(pressure);
 };
 
 /// How contact is enforced. `Memory<S>` is what a node remembers of it, `weight` the measure behind PenaltyPer.

@@ -46,6 +46,22 @@ constexpr bool depends_on_rate() {
     return false;
 }
 
+/// Whether a law's bound depends on the direction: `metric()` is the matrix M of sqrt(t . M t) = bound, in the tool's
+/// frame (theory.md, eq. 5.26). Three dimensions only.
+template <class Law>
+inline constexpr bool is_anisotropic = requires(const Law& law) {
+  { law.metric() } -> std::same_as<Mat<Real, 3>>;
+};
+
+/// Whether a pressure source is brought up to date by passes over a step, and not by its end alone.
+template <class Source>
+constexpr bool is_iterated() {
+  if constexpr (requires { Source::iterated; })
+    return Source::iterated;
+  else
+    return false;
+}
+
 /// Where the normal force in a friction bound is taken from. `Memory` is what that needs to remember at a node.
 /// docs/policies.md, section Pressure source.
 template <class P>
@@ -67,10 +83,10 @@ concept FrictionLaw = requires(const L& law, const FrictionPoint<Real>& at) {
   { law.bound(at) } -> std::same_as<FrictionBound<Real>>;
 };
 
-/// The friction choice of a bundle: a law, a law with another pressure source, or none. The disjunction stands outside
-/// `requires`, inside which Clang 14 does not stop at the first operand.
+/// One friction choice: a law, a law with another pressure source, or none. The disjunction stands outside `requires`,
+/// inside which Clang 14 does not stop at the first operand.
 template <class F>
-concept FrictionPolicy = requires {
+concept SingleFriction = requires {
   requires std::same_as<typename F::Role, role::Friction>;
   requires std::same_as<decltype(F::active), const bool>;
 }
@@ -85,13 +101,62 @@ struct WithPressure {
   static constexpr bool active = true;
 };
 
+/// A friction choice for each kind of contact in the scene. The contacts of a bundle are then one list a kind, and a
+/// pair of a kind without friction keeps nothing of it.
+template <class... Frictions>
+struct PerContact {
+  using Role = role::Friction;
+  static constexpr bool active = (Frictions::active || ...);
+  static constexpr bool per_contact = (SingleFriction<Frictions> && ...);
+};
+
+/// The friction choice of a bundle: one for all contacts, or one a kind.
+template <class F>
+concept FrictionPolicy = SingleFriction<F> || requires {
+  requires F::per_contact;
+};
+
+namespace detail {
+template <class... F>
+struct Frictions {
+  static constexpr bool any_general = ((F::active &&
+                                        [] {
+                                          if constexpr (F::active)
+                                            return F::Law::depends_on_pressure && F::Pressure::follows_current;
+                                          else
+                                            return false;
+                                        }()) ||
+                                       ...);
+  static constexpr bool any_iterated = ((F::active &&
+                                         [] {
+                                           if constexpr (F::active)
+                                             return F::Law::depends_on_pressure && is_iterated<typename F::Pressure>();
+                                           else
+                                             return false;
+                                         }()) ||
+                                        ...);
+  static constexpr bool any_anisotropic = (is_anisotropic<typename F::Law> || ...);
+};
+template <class F>
+struct FrictionsOf {
+  using type = Frictions<F>;
+};
+template <class... F>
+struct FrictionsOf<PerContact<F...>> {
+  using type = Frictions<F...>;
+};
+}  // namespace detail
+
 /// Symmetry of the friction's tangent: only a bound that follows the current normal force breaks it (theory.md, 5.9).
 template <class F>
 constexpr Symmetry friction_symmetry() {
-  if constexpr (!F::active)
-    return Symmetry::symmetric;
-  else
-    return F::Law::depends_on_pressure && F::Pressure::follows_current ? Symmetry::general : Symmetry::symmetric;
+  return detail::FrictionsOf<F>::type::any_general ? Symmetry::general : Symmetry::symmetric;
 }
+/// Whether a bound is brought up to date by passes over a step.
+template <class F>
+inline constexpr bool friction_is_iterated = detail::FrictionsOf<F>::type::any_iterated;
+/// Whether a bound depends on the direction.
+template <class F>
+inline constexpr bool friction_is_anisotropic = detail::FrictionsOf<F>::type::any_anisotropic;
 
 }  // namespace stickslip

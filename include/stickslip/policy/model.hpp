@@ -19,6 +19,17 @@ inline constexpr bool has_contact = Model::Enforcement::active;
 template <class Model>
 inline constexpr bool has_friction = has_contact<Model>&& Model::Friction::active;
 
+/// True when a step takes several passes: multipliers, or a bound that is brought up to date.
+template <class Model>
+constexpr bool takes_passes() {
+  if constexpr (!has_contact<Model>)
+    return false;
+  else if constexpr (!Model::Friction::active)
+    return is_augmented<typename Model::Enforcement>;
+  else
+    return is_augmented<typename Model::Enforcement> || friction_is_iterated<typename Model::Friction>;
+}
+
 /// True when the bundle has inertia.
 template <class Model>
 inline constexpr bool has_inertia = Model::Inertia::active;
@@ -74,6 +85,9 @@ template <class Model>
 concept FrictionNeedsContact =
     !Friction<Model> || !Enforcement<Model> || Model::Enforcement::active || !Model::Friction::active;
 template <class Model>
+concept DirectionsNeedSpace = !Kinematics<Model> || !Friction<Model> || Model::Kinematics::dim == 3 ||
+                              !friction_is_anisotropic<typename Model::Friction>;
+template <class Model>
 concept Inertia = InertiaPolicy<typename Model::Inertia>;
 template <class Model>
 concept HasSymmetry = Kinematics<Model> && Material<Model> && Friction<Model> && Enforcement<Model>;
@@ -89,7 +103,8 @@ concept SolverAcceptsSystem =
 template <class Model>
 inline constexpr bool valid_model = rule::Kinematics<Model>&& rule::Element<Model>&& rule::SameDimension<Model>&&
     rule::Material<Model>&& rule::Friction<Model>&& rule::Enforcement<Model>&& rule::FrictionNeedsContact<Model>&&
-        rule::Inertia<Model>&& rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>;
+        rule::DirectionsNeedSpace<Model>&& rule::Inertia<Model>&& rule::LinearSolver<Model>&&
+            rule::SolverAcceptsSystem<Model>;
 
 /// Instantiate to have a bundle checked, one sentence for each rule.
 template <class Model>
@@ -114,6 +129,9 @@ struct CheckModel {
   static_assert(rule::FrictionNeedsContact<Model>,
                 "stickslip: the bundle has Friction but no contact to rub at; set Enforcement (Penalty) or make "
                 "Friction Frictionless.");
+  static_assert(rule::DirectionsNeedSpace<Model>,
+                "stickslip: the bundle's Friction depends on the direction, and a section has but one; set Kinematics "
+                "to ThreeDimensional or take an isotropic law.");
   static_assert(rule::Inertia<Model>,
                 "stickslip: the bundle's Inertia does not meet InertiaPolicy; see docs/policies.md, section Inertia.");
   static_assert(rule::LinearSolver<Model>,

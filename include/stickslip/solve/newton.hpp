@@ -48,9 +48,15 @@ class Newton {
   /// carries those increments of the constrained components as well (a tangent predictor). On failure u is spoilt.
   template <class System>
   NewtonReport solve(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
+    system.begin_iteration();
+    return resume(system, u, time, dt, driven);
+  }
+
+  /// The same from the stiff relations' variables as they are: another pass over a step.
+  template <class System>
+  NewtonReport resume(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
     NewtonReport report;
     prepare(system);
-    system.begin_iteration();
     if ((report.trouble = system.iterate(u, time, dt, driven))) return report;
     Index stalls = 0;
     for (;;) {

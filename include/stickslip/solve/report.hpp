@@ -13,6 +13,7 @@ struct StepReport {
   Real dt = 0;
   Index iterations = 0;  ///< Newton iterations of this step, those of rejected attempts not counted
   Index rejected = 0;    ///< attempts that were thrown away before it
+  Index passes = 1;      ///< over the step; more than one with multipliers or a bound that is brought up to date
   Real residual = 0;     ///< over the force scale
   ContactSummary contact{};
   /// Part of the friction bounds that the law has not seen yet: their changes, summed over the nodes, over their sum
@@ -26,6 +27,7 @@ struct RunReport {
   Index steps = 0;
   Index iterations = 0;  ///< of accepted and rejected attempts
   Index rejected_steps = 0;
+  Index passes = 0;  ///< of accepted and rejected attempts
   WorkCounts work{};
   Timings timings{};
   Real max_penetration = 0;  ///< [length]

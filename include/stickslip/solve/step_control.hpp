@@ -22,6 +22,8 @@ struct MarchOptions {
   Real time_tolerance = 0;      ///< with inertia: limit of a step's local error (theory.md, eq. 7.8) [length]; 0: none
   Real lag_tolerance = 0;       ///< that automatic steps aim at, see StepReport::lag (theory.md, eq. 6.6) [-]; 0: none
   Index max_iterations = 20;    ///< of Newton's method
+  Real pass_tolerance = 1e-4;   ///< of passes over a step, where the bundle takes them: see Problem
+  Index max_passes = 30;        ///< over a step
   bool line_search = true;
   std::vector<Real> stops{};  ///< times that a step must end at
 
@@ -31,6 +33,8 @@ struct MarchOptions {
     if (steps < 0) throw std::invalid_argument("march: the number of steps must not be negative");
     if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument("march: the tolerance must lie between 0 and 1");
     if (max_iterations < 1) throw std::invalid_argument("march: needs at least one iteration");
+    if (!(pass_tolerance > 0)) throw std::invalid_argument("march: the pass tolerance must be positive");
+    if (max_passes < 1) throw std::invalid_argument("march: needs at least one pass");
     if (!(time_tolerance >= 0)) throw std::invalid_argument("march: the time tolerance must not be negative");
     if (!(lag_tolerance >= 0)) throw std::invalid_argument("march: the lag tolerance must not be negative");
     if (initial < 0 || largest < 0 || smallest < 0)

@@ -9,7 +9,7 @@
 namespace stickslip::verify {
 
 /// One contact node against one tool at rest, without a body.
-template <class Enforcement, class Law, class Friction, class Tool>
+template <class Enforcement, class Law, class Friction, class Tool, int dim = 2>
 struct LoneNode {
   Enforcement enforcement{};
   Law law{};
@@ -19,29 +19,30 @@ struct LoneNode {
   Real area = 1;  ///< reference area of the node [length^2], for laws that ask for it
 
   template <class S>
-  using Memory = NodeMemory<S, 2, Enforcement, Friction>;
+  using Memory = NodeMemory<S, dim, Enforcement, Friction>;
 
   /// Contact at the place x on the memory `old`.
   template <class S>
-  NodeContact<S, 2, Memory<S>> at(const Vec<S, 2>& x, const Memory<S>& old, Real dt = 1) const {
-    const SurfacePoint<S, 2> point = tool.closest(x);
+  NodeContact<S, dim, Memory<S>> at(const Vec<S, dim>& x, const Memory<S>& old, Real dt = 1) const {
+    const SurfacePoint<S, dim> point = surface_point<S, dim>(tool, x);
     return at_pressure(point, settled_pressure(enforcement, weight, point, old), old, dt);
   }
 
   /// The same at a pressure that is not the one of the gap.
-  RelationSample<2> open(const Vec<Real, 2>& x, const Memory<Real>& old, Real pressure, Real dt = 1) const {
-    const auto node = at_pressure<Real>(tool.closest(x), pressure, old, dt);
+  RelationSample<dim> open(const Vec<Real, dim>& x, const Memory<Real>& old, Real pressure, Real dt = 1) const {
+    const auto node = at_pressure<Real>(surface_point<Real, dim>(tool, x), pressure, old, dt);
     return {node.force, node.stiffness, node.pressure};
   }
 
   /// The memory that all but the last place of a path leave; the first place is where the node starts.
   template <class S>
-  Memory<S> preloaded(const std::vector<Vec<Real, 2>>& path, Real dt = 1) const {
+  Memory<S> preloaded(const std::vector<Vec<Real, dim>>& path, Real dt = 1) const {
     Memory<S> memory{};
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-      const Vec<S, 2> x{S(path[i][0]), S(path[i][1])};
+      Vec<S, dim> x;
+      for (int c = 0; c < dim; ++c) x[c] = S(path[i][c]);
       if constexpr (Friction::active)
-        if (i == 0) memory.friction.place = tool.closest(x).place;
+        if (i == 0) memory.friction.place = surface_point<S, dim>(tool, x).place;
       memory = at<S>(x, memory, dt).memory;
     }
     return memory;
@@ -49,25 +50,26 @@ struct LoneNode {
 
  private:
   template <class S>
-  NodeContact<S, 2, Memory<S>> at_pressure(const SurfacePoint<S, 2>& point, const S& pressure, const Memory<S>& old,
-                                           Real dt) const {
-    Vec<S, 1> slipped = Vec<S, 1>::Zero();
-    if constexpr (Friction::active) slipped[0] = tool.difference(point.place[0], old.friction.place[0]);
-    return contact_node<S, 2>(enforcement, law, friction, weight, point, slipped, old, pressure, dt, area);
+  NodeContact<S, dim, Memory<S>> at_pressure(const SurfacePoint<S, dim>& point, const S& pressure, const Memory<S>& old,
+                                             Real dt) const {
+    Vec<S, place_components<dim>> slipped = Vec<S, place_components<dim>>::Zero();
+    if constexpr (Friction::active) slipped = moved<S, dim>(tool, point.place, old.friction.place);
+    return contact_node<S, dim>(enforcement, law, friction, weight, point, slipped, old, pressure, dt, area);
   }
 };
 
 /// Tangent of contact and friction of a node at the last of a path of places. The slope of the force jumps where the
 /// node touches, and where it begins to slide: stay off these by more than two `step`s.
-template <class Enforcement, class Law, class Friction, class Tool>
-TangentReport contact_tangent(const LoneNode<Enforcement, Law, Friction, Tool>& node,
-                              const std::vector<Vec<Real, 2>>& path, Real dt = 1, Real step = 1e-5) {
+template <class Enforcement, class Law, class Friction, class Tool, int dim>
+TangentReport contact_tangent(const LoneNode<Enforcement, Law, Friction, Tool, dim>& node,
+                              const std::vector<Vec<Real, dim>>& path, Real dt = 1, Real step = 1e-5) {
   const auto old = node.template preloaded<Real>(path, dt);
-  const Mat<Real, 2> stiffness = node.template at<Real>(path.back(), old, dt).stiffness;
-  const auto dual_old = node.template preloaded<Dual<2>>(path, dt);
-  const Mat<Real, 2> by_duals = slopes<2, 2>(node.template at<Dual<2>>(seeded<2>(path.back()), dual_old, dt).force);
-  const Mat<Real, 2> by_differences = differentiate<2, 2>(
-      path.back(), step, [&](const Vec<Real, 2>& x) { return node.template at<Real>(x, old, dt).force; });
+  const Mat<Real, dim> stiffness = node.template at<Real>(path.back(), old, dt).stiffness;
+  const auto dual_old = node.template preloaded<Dual<dim>>(path, dt);
+  const Mat<Real, dim> by_duals =
+      slopes<dim, dim>(node.template at<Dual<dim>>(seeded<dim>(path.back()), dual_old, dt).force);
+  const Mat<Real, dim> by_differences = differentiate<dim, dim>(
+      path.back(), step, [&](const Vec<Real, dim>& x) { return node.template at<Real>(x, old, dt).force; });
   return {relative_error(stiffness, by_duals), relative_error(stiffness, by_differences), asymmetry(stiffness)};
 }
 

@@ -83,7 +83,7 @@ class EnergyLedger {
     reaction_ = reaction;
     if constexpr (has_contact<Model>) {
       forces_.clear();
-      for (const auto& pair : problem_.contacts()) forces_.push_back(pair.states());
+      problem_.visit_contacts([&](const auto& pair) { forces_.push_back(pair.states()); });
     }
   }
 
@@ -102,7 +102,7 @@ class EnergyLedger {
                                      energies_.plastic += weight * material.plastic_work(state);
                                  });
     if constexpr (has_contact<Model>)
-      for (const auto& pair : problem_.contacts()) energies_.penalty += pair.stored_energy();
+      problem_.visit_contacts([&](const auto& pair) { energies_.penalty += pair.stored_energy(); });
     if constexpr (has_inertia<Model>) energies_.kinetic = problem_.inertia().kinetic_energy();
   }
 
@@ -111,8 +111,8 @@ class EnergyLedger {
     Real work = 0;
     if constexpr (has_contact<Model>) {
       std::size_t p = 0;
-      for (const auto& pair : problem_.contacts()) {
-        const rigid::Pose<dim> from = pair.contact().motion.at(t0), to = pair.contact().motion.at(t1);
+      problem_.visit_contacts([&](const auto& pair) {
+        const rigid::Pose<dim> from = pair.motion().at(t0), to = pair.motion().at(t1);
         for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
           const Index n = pair.nodes()[k];
           const Vec<Real, dim> x = problem_.body().mesh().nodes[static_cast<std::size_t>(n)] + problem_.displacement(n);
@@ -124,7 +124,7 @@ class EnergyLedger {
           work -= force.dot(moved);
         }
         ++p;
-      }
+      });
     }
     return work;
   }

@@ -4,11 +4,12 @@
 #include <stickslip/geometry/surface_point.hpp>
 #include <stickslip/verify/report.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stickslip::verify {
 
-/// Derivatives of a tool's closest point against dual numbers, at one point of the plane; largest components.
+/// Derivatives of a tool's closest point against dual numbers, at one point; largest components.
 struct ToolReport {
   Real normal = 0;      ///< of grad gap - normal [-]
   Real length = 0;      ///< | |normal| - 1 |
@@ -18,18 +19,25 @@ struct ToolReport {
   Real worst() const { return std::max({normal, length, hess_gap, grad_place, hess_place}); }
 };
 
-template <class Tool>
-ToolReport tool_derivatives(const Tool& tool, const Vec<Real, 2>& x) {
-  const SurfacePoint<Real, 2> at = tool.closest(x);
-  const SurfacePoint<Dual<2>, 2> dual = tool.closest(seeded<2>(x));
+template <class Tool, int dim>
+ToolReport tool_derivatives(const Tool& tool, const Vec<Real, dim>& x) {
+  constexpr int places = place_components<dim>;
+  const SurfacePoint<Real, dim> at = surface_point<Real, dim>(tool, x);
+  const SurfacePoint<Dual<dim>, dim> dual = surface_point<Dual<dim>, dim>(tool, seeded<dim>(x));
   const auto largest = [](const auto& m) { return m.cwiseAbs().maxCoeff(); };
-  const Vec<Real, 2> grad_gap = dual.gap.slope.matrix(), grad_place = dual.place[0].slope.matrix();
-  const Vec<Dual<2>, 2> dual_grad_place = dual.grad_place.col(0);
-  return {.normal = largest(Vec<Real, 2>(grad_gap - at.normal)),
-          .length = std::abs(at.normal.norm() - 1),
-          .hess_gap = largest(Mat<Real, 2>(slopes<2, 2>(dual.normal) - at.hess_gap)),
-          .grad_place = largest(Vec<Real, 2>(grad_place - at.grad_place.col(0))),
-          .hess_place = largest(Mat<Real, 2>(slopes<2, 2>(dual_grad_place) - at.hess_place[0]))};
+  const Vec<Real, dim> grad_gap = dual.gap.slope.matrix();
+  ToolReport report{.normal = largest(Vec<Real, dim>(grad_gap - at.normal)),
+                    .length = std::abs(at.normal.norm() - 1),
+                    .hess_gap = largest(Mat<Real, dim>(slopes<dim, dim>(dual.normal) - at.hess_gap))};
+  for (int k = 0; k < places; ++k) {
+    const Vec<Real, dim> grad_place = dual.place[k].slope.matrix();
+    const Vec<Dual<dim>, dim> dual_grad_place = dual.grad_place.col(k);
+    report.grad_place = std::max(report.grad_place, largest(Vec<Real, dim>(grad_place - at.grad_place.col(k))));
+    report.hess_place = std::max(
+        report.hess_place,
+        largest(Mat<Real, dim>(slopes<dim, dim>(dual_grad_place) - at.hess_place[static_cast<std::size_t>(k)])));
+  }
+  return report;
 }
 
 }  // namespace stickslip::verify
