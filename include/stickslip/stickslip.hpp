@@ -18,7 +18,10 @@
 #include <stickslip/friction/slip_weakening.hpp>
 #include <stickslip/friction/stribeck.hpp>
 #include <stickslip/friction/tresca.hpp>
+#include <stickslip/geometry/any_of.hpp>
+#include <stickslip/geometry/extruded.hpp>
 #include <stickslip/geometry/profile.hpp>
+#include <stickslip/geometry/revolution.hpp>
 #include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>

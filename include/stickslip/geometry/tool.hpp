@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/geometry/any_of.hpp>
+#include <stickslip/geometry/extruded.hpp>
 #include <stickslip/geometry/profile.hpp>
+#include <stickslip/geometry/revolution.hpp>
+
+#include <type_traits>
 
 namespace stickslip::rigid {
 
-namespace detail {
+/// The kind of tool of a bundle that names none: a profile in a section, in space what profiles make.
 template <int dim>
-struct DefaultTool;
-template <>
-struct DefaultTool<2> {
-  using type = Profile;
-};
-}  // namespace detail
-
-/// The kind of tool of a bundle that names none.
-template <int dim>
-using Tool = typename detail::DefaultTool<dim>::type;
+using Tool = std::conditional_t<dim == 2, Profile, AnyOf<Revolution, Extruded>>;
 
 }  // namespace stickslip::rigid

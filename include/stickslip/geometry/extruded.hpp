@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/geometry/profile.hpp>
+#include <stickslip/geometry/space.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace stickslip::rigid {
+
+/// Rigid cylindrical surface: a Profile in the plane of two directions, swept endlessly across it (theory.md,
+/// eq. 4.9). Drawbeads, rollers, the tools of plane strain in space. Seen against the sweep first x second the body is
+/// on the left of the section's walk.
+class Extruded {
+ public:
+  /// The section's coordinates count from `origin` along `first` and `second`, which must be at a right angle and need
+  /// not be unit vectors. Throws std::invalid_argument naming what is wrong.
+  Extruded(Profile section, const Vec<Real, 3>& origin, const Vec<Real, 3>& first, const Vec<Real, 3>& second)
+      : section_(std::move(section)), origin_(origin), first_(detail::unit(first, "extruded: the first direction")) {
+    const Vec<Real, 3> v = detail::unit(second, "extruded: the second direction");
+    if (!origin.allFinite()) throw std::invalid_argument("extruded: the origin must be finite");
+    if (!(std::abs(v.dot(first_)) < 1e-6))
+      throw std::invalid_argument("extruded: the two directions must be at a right angle");
+    second_ = (v - v.dot(first_) * first_).normalized();
+  }
+
+  bool empty() const { return section_.empty(); }
+  const Profile& section() const { return section_; }
+
+  /// The surface seen from x, a point in the tool's frame.
+  template <class S>
+  Distance<S, 3> distance(const Vec<S, 3>& x) const {
+    const Vec<S, 3> v(x[0] - origin_[0], x[1] - origin_[1], x[2] - origin_[2]);
+    const Vec<S, 3> e = first_.template cast<S>(), f = second_.template cast<S>();
+    if (!detail::plain(v).allFinite()) return detail::nowhere<S>();
+    const auto at = section_.closest(Vec<S, 2>(detail::dot(e, v), detail::dot(f, v)));
+    Distance<S, 3> out;
+    out.gap = at.gap;
+    out.normal = e * at.normal[0] + f * at.normal[1];
+    out.hess_gap = e * e.transpose() * at.hess_gap(0, 0) + f * f.transpose() * at.hess_gap(1, 1) +
+                   (e * f.transpose() + f * e.transpose()) * at.hess_gap(0, 1);
+    return out;
+  }
+
+ private:
+  Profile section_;
+  Vec<Real, 3> origin_, first_, second_;
+};
+
+}  // namespace stickslip::rigid
