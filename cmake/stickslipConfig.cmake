@@ -5,6 +5,8 @@ find_dependency(Eigen3 3.4 CONFIG)
 include(${CMAKE_CURRENT_LIST_DIR}/stickslipTargets.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/stickslipParts.cmake)
 
+# A sentence for each component that is asked for and cannot be had.
+set(stickslip_NOT_FOUND_MESSAGE "")
 foreach(stickslip_component IN LISTS stickslip_FIND_COMPONENTS)
   stickslip_add_part(${stickslip_component} stickslip_missing IMPORTED)
   set(stickslip_${stickslip_component}_FOUND TRUE)
