@@ -39,7 +39,7 @@ void write_mesh_data(const std::filesystem::path& path, const stickslip::Problem
       if (a == 1) out << '\n';
     }
     out << "\n\n";
-  });
+  }
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
