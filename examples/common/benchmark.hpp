@@ -74,7 +74,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   Clock clock;
   clock.start();
   auto march = problem.march(benchmark.march);
-  std::optional<verify::EnergyLedger<Model>> ledger;
+  std::optional<verify::EnergyLedger<MechanicsOf<Model>>> ledger;
   if (benchmark.energies) ledger.emplace(problem);
   for (const StepReport& step : march) {
     clock.stop();

@@ -18,7 +18,7 @@ void draw(const std::filesystem::path& directory, const std::string& name, const
 
 /// Data of the deformed mesh, a gnuplot pm3d patch a cell: x, y, plastic strain (mean over the points).
 template <class Model>
-void write_mesh_data(const std::filesystem::path& path, const stickslip::Problem<Model>& problem) {
+void write_mesh_data(const std::filesystem::path& path, const stickslip::Scene<Model>& problem) {
   const auto& mesh = problem.body().mesh();
   std::vector<double> value(mesh.cells.size(), 0.0), volume(mesh.cells.size(), 0.0);
   if constexpr (requires(typename stickslip::Problem<Model>::BodyType::State s) { s.plastic_strain; })
@@ -48,7 +48,7 @@ std::string shot_name(double travel_mm);
 
 /// Data of the tools at a time, a block each.
 template <class Model>
-void write_tool_data(const std::filesystem::path& path, const stickslip::Problem<Model>& problem, double reach) {
+void write_tool_data(const std::filesystem::path& path, const stickslip::Scene<Model>& problem, double reach) {
   std::ofstream out(path);
   problem.visit_contacts([&](const auto& pair) {
     const auto pose = pair.motion().at(problem.time());

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/assembly/system.hpp>
+#include <stickslip/scene.hpp>
 #include <stickslip/solve/newton.hpp>
 #include <stickslip/solve/report.hpp>
 #include <stickslip/solve/step_control.hpp>
 
 #include <cmath>
-#include <functional>
 #include <iterator>
-#include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 namespace stickslip {
@@ -67,11 +62,12 @@ class March {
 
  private:
   friend class Problem<Model>;
+  using Mechanical = MechanicsOf<Model>;
   March(Problem<Model>& problem, const MarchOptions& options);
   void advance();
   Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
 
-  Problem<Model>& problem_;
+  Scene<Mechanical>& problem_;
   MarchOptions options_;
   StepControl control_;
   Newton<SolverOf<Model>> newton_;
@@ -83,171 +79,35 @@ class March {
   bool ended_ = false;
 };
 
-/// A scene of the bundle `Model`: body, tools, supports and loads, and its converged state. The bundle decides what
-/// there is (docs/policies.md); the parameters say how much.
+namespace detail {
+// Nothing, for a bundle whose mechanics break a rule: the rule's sentence is enough.
 template <class Model>
-class Problem {
+struct SceneOf {
+  struct type {};
+};
+template <class Model>
+concept SoundMechanics = rule::HasSymmetry<Model> && rule::LinearSolver<Model> && valid_model<MechanicsOf<Model>>;
+template <SoundMechanics Model>
+struct SceneOf<Model> {
+  using type = Scene<MechanicsOf<Model>>;
+};
+}  // namespace detail
+
+/// A scene of the bundle `Model` and the means to solve it. The bundle decides what there is (docs/policies.md); the
+/// parameters say how much.
+template <class Model>
+class Problem : public detail::SceneOf<Model>::type {
   static_assert(CheckModel<Model>::ok);
 
  public:
-  using BodyType = Body<Model>;
-  static constexpr int dim = Model::Kinematics::dim;
-  static constexpr bool with_contact = has_contact<Model>;
-  static constexpr bool symmetric_storage = matrix_storage<Model> == Symmetry::symmetric;
-
-  struct Parameters {
-    typename BodyType::MeshType body;
-    [[no_unique_address]] typename Model::Kinematics kinematics{};
-    typename Model::Material material{};
-    [[no_unique_address]] typename Model::Inertia inertia{};
-    [[no_unique_address]] Only<with_contact, Contacts<Model>, Problem> contacts{};
-  };
-
-  /// Throws std::invalid_argument, naming the input, before anything is computed.
-  explicit Problem(Parameters parameters)
-      : body_(std::move(parameters.body), validated(parameters.kinematics), validated(parameters.material)) {
-    if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
-    if constexpr (has_inertia<Model>) inertia_.emplace(body_, validated(parameters.inertia));
-    u_.setZero(body_.mesh().node_count() * dim);
-    last_increment_ = u_;
-    if constexpr (has_inertia<Model>) increment_before_ = u_;
-  }
-  Problem(const Problem&) = delete;
-  Problem& operator=(const Problem&) = delete;
-
-  /// Holds a displacement component of a side at zero.
-  Problem& hold(const std::string& side, Index component) { return drive(side, component, nullptr); }
-  /// Drives a displacement component of a side: value(time) [length].
-  Problem& drive(const std::string& side, Index component, std::function<Real(Real)> value) {
-    driven_.push_back(checked({side, component, std::move(value)}));
-    return *this;
-  }
-  /// Loads a side with a total dead force in one component, spread over its reference area: value(time) [force].
-  Problem& load(const std::string& side, Index component, std::function<Real(Real)> value) {
-    if (!value) throw std::invalid_argument("load on side \"" + side + "\": needs a function of time");
-    if (body_.mesh().side(side).facets.empty())
-      throw std::invalid_argument("load on side \"" + side + "\": the side has no facets to spread it over");
-    loads_.push_back(checked({side, component, std::move(value)}));
-    return *this;
-  }
-
-  /// Sets the velocity at time 0, of all nodes alike or as a function of the reference position [length / time].
-  Problem& start_velocity(const Vec<Real, dim>& velocity) requires has_inertia<Model> {
-    return start_velocity([velocity](const Vec<Real, dim>&) { return velocity; });
-  }
-  Problem& start_velocity(const std::function<Vec<Real, dim>(const Vec<Real, dim>&)>& velocity) requires
-      has_inertia<Model> {
-    for (Index n = 0; n < body_.mesh().node_count(); ++n)
-      inertia_->velocity().template segment<dim>(n * dim) = velocity(body_.mesh().nodes[static_cast<std::size_t>(n)]);
-    return *this;
-  }
+  using Base = typename detail::SceneOf<Model>::type;
+  using Base::Base;
 
   /// Begins a run from the present state; the problem must outlive it.
   March<Model> march(const MarchOptions& options) {
-    options.validate(time_);
+    options.validate(this->time());
     return March<Model>(*this, options);
   }
-
-  Real time() const { return time_; }
-  /// The discrete system of the last run; it exists once a march has begun.
-  const System<Model>& system() const {
-    if (!system_) throw std::invalid_argument("the problem has no system before its first march");
-    return *system_;
-  }
-  const BodyType& body() const { return body_; }
-  /// Converged nodal displacements, node * dim + component [length].
-  const Field& displacement() const { return u_; }
-  /// Displacement of a node [length].
-  Vec<Real, dim> displacement(Index node) const { return u_.template segment<dim>(node * dim); }
-  /// Mass, velocity and acceleration.
-  const InertiaForces<Model>& inertia() const requires has_inertia<Model> { return *inertia_; }
-  Index unknowns() const { return system_ ? system_->dofs().unknowns() : 0; }
-
-  /// The contact called `name`.
-  const ContactRecord<dim>& contact(const std::string& name) const requires with_contact {
-    const ContactRecord<dim>* found = nullptr;
-    visit_contacts([&](const auto& pair) {
-      if (pair.name() == name) found = &pair;
-    });
-    if (!found) throw std::invalid_argument("there is no contact called \"" + name + "\"");
-    return *found;
-  }
-  /// Calls visit(pair) for every ContactPair.
-  template <class Visit>
-  void visit_contacts(Visit&& visit) const requires with_contact {
-    for_each_contact(pairs_, visit);
-  }
-  /// Force of the body on the tool of a contact [force]; in axisymmetry of the full turn.
-  Vec<Real, dim> contact_force(const std::string& name) const requires with_contact { return contact(name).force(); }
-  /// Sum of the support forces on the body at a side, in one component [force].
-  Real reaction(const std::string& side, Index component) const {
-    const auto& nodes = body_.mesh().side(side).nodes;
-    require_component(side, component);
-    Real sum = 0;
-    if (system_)
-      for (const Index n : nodes) sum += reactions_[n * dim + component];
-    return sum;
-  }
-
-  /// Largest accumulated plastic strain of a point; 0 for a material that has none.
-  Real max_plastic_strain() const {
-    Real largest = 0;
-    if constexpr (requires(typename BodyType::State s) { s.plastic_strain; })
-      body_.visit_points(u_, [&](Index, int, const auto&, const auto& state, Real) {
-        largest = std::max(largest, state.plastic_strain);
-      });
-    return largest;
-  }
-
- private:
-  friend class March<Model>;
-
-  template <class Friction>
-  void add_contacts(const std::vector<Contact<Model, Friction>>& contacts,
-                    std::vector<ContactPair<Model, Friction>>& pairs) requires with_contact {
-    for (const auto& c : contacts) {
-      visit_contacts([&](const auto& pair) {
-        if (pair.name() == (c.name.empty() ? c.side : c.name))
-          throw std::invalid_argument("two contacts are called \"" + pair.name() + "\"; give them names");
-      });
-      pairs.emplace_back(c, body_.mesh(), body_.kinematics());
-    }
-  }
-  template <class... Frictions>
-  void add_contacts(const std::tuple<std::vector<Contact<Model, Frictions>>...>& contacts,
-                    std::tuple<std::vector<ContactPair<Model, Frictions>>...>& pairs) requires with_contact {
-    [&]<std::size_t... i>(std::index_sequence<i...>) {
-      (add_contacts(std::get<i>(contacts), std::get<i>(pairs)), ...);
-    }
-    (std::index_sequence_for<Frictions...>());
-  }
-
-  template <class P>
-  static const P& validated(const P& parameters) {
-    if constexpr (requires { parameters.validate(); }) parameters.validate();
-    return parameters;
-  }
-  static void require_component(const std::string& side, Index component) {
-    if (component < 0 || component >= dim)
-      throw std::invalid_argument("side \"" + side + "\": there is no component " + std::to_string(component));
-  }
-  SideValue checked(SideValue value) {
-    (void)body_.mesh().side(value.side);
-    require_component(value.side, value.component);
-    system_.reset();  // supports decide the numbering
-    return value;
-  }
-
-  BodyType body_;
-  [[no_unique_address]] typename System<Model>::Pairs pairs_;
-  [[no_unique_address]] Only<has_inertia<Model>, std::optional<InertiaForces<Model>>, BodyType> inertia_;
-  std::vector<SideValue> driven_, loads_;
-  std::unique_ptr<System<Model>> system_;
-  Field u_, last_increment_, reactions_;
-  [[no_unique_address]] Only<has_inertia<Model>, Field, Problem> increment_before_;
-  Real time_ = 0;
-  Real last_dt_ = 0;              // 0: there is no increment to extrapolate
-  Real increment_before_dt_ = 0;  // 0: nor a bend
 };
 
 template <class Model>
@@ -260,11 +120,11 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
                             .line_search = options.line_search}) {
   if (!problem.system_) {
     if constexpr (has_inertia<Model>)
-      problem.system_ = std::make_unique<System<Model>>(problem.body_, problem.pairs_, *problem.inertia_,
-                                                        problem.driven_, problem.loads_);
+      problem.system_ = std::make_unique<System<Mechanical>>(problem.body_, problem.pairs_, *problem.inertia_,
+                                                             problem.driven_, problem.loads_);
     else
-      problem.system_ = std::make_unique<System<Model>>(problem.body_, problem.pairs_, problem.inertia_,
-                                                        problem.driven_, problem.loads_);
+      problem.system_ = std::make_unique<System<Mechanical>>(problem.body_, problem.pairs_, problem.inertia_,
+                                                             problem.driven_, problem.loads_);
     problem.reactions_.setZero(problem.u_.size());
     if constexpr (has_contact<Model>)
       if (problem.time_ == 0) {
@@ -290,7 +150,7 @@ Index March<Model>::pass_again([[maybe_unused]] Field& u, [[maybe_unused]] Real 
                                [[maybe_unused]] NewtonReport& newton) {
   Index passes = 1;
   if constexpr (takes_passes<Model>()) {
-    System<Model>& system = *problem_.system_;
+    System<Mechanical>& system = *problem_.system_;
     Real before = 0;
     for (Real now = system.unsettled(); now > options_.pass_tolerance; now = system.unsettled()) {
       if (passes == options_.max_passes) {
@@ -318,7 +178,7 @@ void March<Model>::advance() {
     ended_ = true;
     return;
   }
-  System<Model>& system = *problem_.system_;
+  System<Mechanical>& system = *problem_.system_;
   Field& u = trial_;
   Index rejected = 0;
   for (;;) {

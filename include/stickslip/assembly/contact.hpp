@@ -21,32 +21,34 @@ namespace stickslip {
 /// The kind of tool of a bundle: `Model::Tool`, or what there is of its dimension.
 template <class Model>
 struct ToolKind {
-  using type = rigid::Tool<Model::Kinematics::dim>;
+  using type = typename detail::ToolNameOf<Model>::type;
 };
 template <class Model>
-  requires requires {
-    typename Model::Tool;
-  }
+  requires std::is_void_v<typename detail::ToolNameOf<Model>::type>
 struct ToolKind<Model> {
-  using type = typename Model::Tool;
+  using type = rigid::Tool<Model::Kinematics::dim>;
 };
 template <class Model>
 using ToolOf = typename ToolKind<Model>::type;
 
-/// A side of the body against a rigid tool: what the user says of it. `Friction` is the bundle's, or one of its
-/// PerContact list.
-template <class Model, class Friction = typename Model::Friction>
-struct Contact {
+/// See Contact.
+template <class Model, class Friction>
+struct ContactOf {
   static constexpr int dim = Model::Kinematics::dim;
 
   std::string side;             ///< named side of the mesh
   ToolOf<Model> tool;           ///< in its own frame
   rigid::Motion<dim> motion{};  ///< the frame's pose over time
-  [[no_unique_address]] Only<Model::Enforcement::active && Friction::active, typename Friction::Law, Contact>
+  [[no_unique_address]] Only<Model::Enforcement::active && Friction::active, typename Friction::Law, ContactOf>
       friction{};                             ///< parameters of the law
   typename Model::Enforcement enforcement{};  ///< parameters of the enforcement
   std::string name = "";  ///< for results; the side's name if empty. Not {}: GCC 12 breaks down where it is left out
 };
+
+/// A side of the body against a rigid tool: what the user says of it. `Friction` is the bundle's, or one of its
+/// PerContact list.
+template <class Model, class Friction = typename Model::Friction>
+using Contact = ContactOf<MechanicsOf<Model>, Friction>;
 
 /// What a pair did in the last assembly.
 struct ContactSummary {

@@ -62,8 +62,8 @@ inline std::ofstream open(const std::filesystem::path& path) {
 /// and, where the material has it, plastic strain. In axisymmetry x is the radius, y the axis and z the hoop direction.
 /// Throws std::runtime_error, naming the file, when it cannot be written.
 template <class Model>
-void write_vtu(const std::filesystem::path& path, const Problem<Model>& problem) {
-  using Body = typename Problem<Model>::BodyType;
+void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
+  using Body = typename Scene<Model>::BodyType;
   using Shape = typename Body::Shape;
   static_assert(std::endian::native == std::endian::little, "the file says that its numbers are little-endian");
   constexpr int dim = Body::dim;
@@ -167,7 +167,7 @@ class VtuSeries {
   }
 
   template <class Model>
-  void write(const Problem<Model>& problem) {
+  void write(const Scene<Model>& problem) {
     std::string number = std::to_string(entries_.size());
     number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');
     const std::string file = name_ + "_" + number + ".vtu";

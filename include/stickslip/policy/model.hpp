@@ -66,6 +66,54 @@ using SolverOf = typename detail::SolverFor<typename Model::LinearSolver, system
 template <class Model>
 inline constexpr Symmetry matrix_storage = widest(system_symmetry<Model>, SolverOf<Model>::storage);
 
+namespace detail {
+// A solver by its storage alone.
+template <Symmetry storage_>
+struct StorageOnly {
+  using Role = role::LinearSolver;
+  static constexpr Symmetry accepts = Symmetry::general;
+  static constexpr Symmetry storage = storage_;
+  void analyze(const SparseView&);
+  Factorization factorize(const SparseView&);
+  bool solve(const Real*, Real*);
+};
+template <class T>
+struct NamedTool {
+  using Tool = T;
+};
+template <>
+struct NamedTool<void> {};
+template <class Model>
+struct ToolNameOf {
+  using type = void;
+};
+template <class Model>
+  requires requires {
+    typename Model::Tool;
+  }
+struct ToolNameOf<Model> {
+  using type = typename Model::Tool;
+};
+}  // namespace detail
+
+/// A bundle but for its solver, of which only the storage of the matrix is left: what the body, the contacts and the
+/// balance are made of. Bundles that differ in the solver alone share it, and the compiler's work with it.
+template <class Kinematics_, class Element_, class Material_, class Friction_, class Enforcement_, class Inertia_,
+          class Tool_, Symmetry storage>
+struct Mechanics : detail::NamedTool<Tool_> {
+  using Kinematics = Kinematics_;
+  using Element = Element_;
+  using Material = Material_;
+  using Friction = Friction_;
+  using Enforcement = Enforcement_;
+  using Inertia = Inertia_;
+  using LinearSolver = detail::StorageOnly<storage>;
+};
+template <class Model>
+using MechanicsOf = Mechanics<typename Model::Kinematics, typename Model::Element, typename Model::Material,
+                              typename Model::Friction, typename Model::Enforcement, typename Model::Inertia,
+                              typename detail::ToolNameOf<Model>::type, matrix_storage<Model>>;
+
 /// The rules of a bundle, a concept each. A rule that combines policies holds while one of them breaks its own
 /// contract: one mistake gives one sentence.
 namespace rule {

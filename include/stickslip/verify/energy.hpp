@@ -30,7 +30,7 @@ class EnergyLedger {
   static constexpr int dim = Model::Kinematics::dim;
 
   /// Begin after `Problem::march`, before its first step.
-  explicit EnergyLedger(const Problem<Model>& problem) : problem_(problem), u_(problem.displacement()) {
+  explicit EnergyLedger(const Scene<MechanicsOf<Model>>& problem) : problem_(problem), u_(problem.displacement()) {
     internal_.setZero(u_.size());
     contact_ = external_ = reaction_ = acceleration_ = internal_;
     if constexpr (has_inertia<Model>) {
@@ -42,7 +42,7 @@ class EnergyLedger {
 
   /// Books the step that has just been taken.
   void update(const StepReport& step) {
-    const System<Model>& system = problem_.system();
+    const System<MechanicsOf<Model>>& system = problem_.system();
     const Field du = problem_.displacement() - u_;
     Real before = 0.5;  // weight of the forces at the start of the step
     if constexpr (has_inertia<Model>) before = problem_.inertia().scheme().alpha_f;
@@ -129,10 +129,13 @@ class EnergyLedger {
     return work;
   }
 
-  const Problem<Model>& problem_;
+  const Scene<MechanicsOf<Model>>& problem_;
   Energies energies_;
   Field u_, internal_, contact_, external_, reaction_, acceleration_;
   std::vector<std::vector<ContactNodeState<dim>>> forces_;  // at the start of the step, by pair and node
 };
+
+template <class Model>
+EnergyLedger(const Problem<Model>&) -> EnergyLedger<Model>;
 
 }  // namespace stickslip::verify

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/assembly/system.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace stickslip {
+
+template <class Model>
+class March;
+
+/// A scene, whatever solves it: body, tools, supports and loads, and its converged state.
+template <class Model>
+class Scene {
+ public:
+  using BodyType = Body<Model>;
+  static constexpr int dim = Model::Kinematics::dim;
+  static constexpr bool with_contact = has_contact<Model>;
+  static constexpr bool symmetric_storage = matrix_storage<Model> == Symmetry::symmetric;
+
+  struct Parameters {
+    typename BodyType::MeshType body;
+    [[no_unique_address]] typename Model::Kinematics kinematics{};
+    typename Model::Material material{};
+    [[no_unique_address]] typename Model::Inertia inertia{};
+    [[no_unique_address]] Only<with_contact, Contacts<Model>, Scene> contacts{};
+  };
+
+  /// Throws std::invalid_argument, naming the input, before anything is computed.
+  explicit Scene(Parameters parameters)
+      : body_(std::move(parameters.body), validated(parameters.kinematics), validated(parameters.material)) {
+    if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
+    if constexpr (has_inertia<Model>) inertia_.emplace(body_, validated(parameters.inertia));
+    u_.setZero(body_.mesh().node_count() * dim);
+    last_increment_ = u_;
+    if constexpr (has_inertia<Model>) increment_before_ = u_;
+  }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  /// Holds a displacement component of a side at zero.
+  Scene& hold(const std::string& side, Index component) { return drive(side, component, nullptr); }
+  /// Drives a displacement component of a side: value(time) [length].
+  Scene& drive(const std::string& side, Index component, std::function<Real(Real)> value) {
+    driven_.push_back(checked({side, component, std::move(value)}));
+    return *this;
+  }
+  /// Loads a side with a total dead force in one component, spread over its reference area: value(time) [force].
+  Scene& load(const std::string& side, Index component, std::function<Real(Real)> value) {
+    if (!value) throw std::invalid_argument("load on side \"" + side + "\": needs a function of time");
+    if (body_.mesh().side(side).facets.empty())
+      throw std::invalid_argument("load on side \"" + side + "\": the side has no facets to spread it over");
+    loads_.push_back(checked({side, component, std::move(value)}));
+    return *this;
+  }
+
+  /// Sets the velocity at time 0, of all nodes alike or as a function of the reference position [length / time].
+  Scene& start_velocity(const Vec<Real, dim>& velocity) requires has_inertia<Model> {
+    return start_velocity([velocity](const Vec<Real, dim>&) { return velocity; });
+  }
+  Scene& start_velocity(const std::function<Vec<Real, dim>(const Vec<Real, dim>&)>& velocity) requires
+      has_inertia<Model> {
+    for (Index n = 0; n < body_.mesh().node_count(); ++n)
+      inertia_->velocity().template segment<dim>(n * dim) = velocity(body_.mesh().nodes[static_cast<std::size_t>(n)]);
+    return *this;
+  }
+
+  Real time() const { return time_; }
+  /// The discrete system of the last run; it exists once a march has begun.
+  const System<Model>& system() const {
+    if (!system_) throw std::invalid_argument("the problem has no system before its first march");
+    return *system_;
+  }
+  const BodyType& body() const { return body_; }
+  /// Converged nodal displacements, node * dim + component [length].
+  const Field& displacement() const { return u_; }
+  /// Displacement of a node [length].
+  Vec<Real, dim> displacement(Index node) const { return u_.template segment<dim>(node * dim); }
+  /// Mass, velocity and acceleration.
+  const InertiaForces<Model>& inertia() const requires has_inertia<Model> { return *inertia_; }
+  Index unknowns() const { return system_ ? system_->dofs().unknowns() : 0; }
+
+  /// The contact called `name`.
+  const ContactRecord<dim>& contact(const std::string& name) const requires with_contact {
+    const ContactRecord<dim>* found = nullptr;
+    visit_contacts([&](const auto& pair) {
+      if (pair.name() == name) found = &pair;
+    });
+    if (!found) throw std::invalid_argument("there is no contact called \"" + name + "\"");
+    return *found;
+  }
+  /// Calls visit(pair) for every ContactPair.
+  template <class Visit>
+  void visit_contacts(Visit&& visit) const requires with_contact {
+    for_each_contact(pairs_, visit);
+  }
+  /// Force of the body on the tool of a contact [force]; in axisymmetry of the full turn.
+  Vec<Real, dim> contact_force(const std::string& name) const requires with_contact { return contact(name).force(); }
+  /// Sum of the support forces on the body at a side, in one component [force].
+  Real reaction(const std::string& side, Index component) const {
+    const auto& nodes = body_.mesh().side(side).nodes;
+    require_component(side, component);
+    Real sum = 0;
+    if (system_)
+      for (const Index n : nodes) sum += reactions_[n * dim + component];
+    return sum;
+  }
+
+  /// Largest accumulated plastic strain of a point; 0 for a material that has none.
+  Real max_plastic_strain() const {
+    Real largest = 0;
+    if constexpr (requires(typename BodyType::State s) { s.plastic_strain; })
+      body_.visit_points(u_, [&](Index, int, const auto&, const auto& state, Real) {
+        largest = std::max(largest, state.plastic_strain);
+      });
+    return largest;
+  }
+
+ private:
+  template <class>
+  friend class March;
+
+  template <class Friction>
+  void add_contacts(const std::vector<Contact<Model, Friction>>& contacts,
+                    std::vector<ContactPair<Model, Friction>>& pairs) requires with_contact {
+    for (const auto& c : contacts) {
+      visit_contacts([&](const auto& pair) {
+        if (pair.name() == (c.name.empty() ? c.side : c.name))
+          throw std::invalid_argument("two contacts are called \"" + pair.name() + "\"; give them names");
+      });
+      pairs.emplace_back(c, body_.mesh(), body_.kinematics());
+    }
+  }
+  template <class... Frictions>
+  void add_contacts(const std::tuple<std::vector<Contact<Model, Frictions>>...>& contacts,
+                    std::tuple<std::vector<ContactPair<Model, Frictions>>...>& pairs) requires with_contact {
+    [&]<std::size_t... i>(std::index_sequence<i...>) {
+      (add_contacts(std::get<i>(contacts), std::get<i>(pairs)), ...);
+    }
+    (std::index_sequence_for<Frictions...>());
+  }
+
+  template <class P>
+  static const P& validated(const P& parameters) {
+    if constexpr (requires { parameters.validate(); }) parameters.validate();
+    return parameters;
+  }
+  static void require_component(const std::string& side, Index component) {
+    if (component < 0 || component >= dim)
+      throw std::invalid_argument("side \"" + side + "\": there is no component " + std::to_string(component));
+  }
+  SideValue checked(SideValue value) {
+    (void)body_.mesh().side(value.side);
+    require_component(value.side, value.component);
+    system_.reset();  // supports decide the numbering
+    return value;
+  }
+
+  BodyType body_;
+  [[no_unique_address]] typename System<Model>::Pairs pairs_;
+  [[no_unique_address]] Only<has_inertia<Model>, std::optional<InertiaForces<Model>>, BodyType> inertia_;
+  std::vector<SideValue> driven_, loads_;
+  std::unique_ptr<System<Model>> system_;
+  Field u_, last_increment_, reactions_;
+  [[no_unique_address]] Only<has_inertia<Model>, Field, Scene> increment_before_;
+  Real time_ = 0;
+  Real last_dt_ = 0;              // 0: there is no increment to extrapolate
+  Real increment_before_dt_ = 0;  // 0: nor a bend
+};
+
+}  // namespace stickslip
