@@ -113,7 +113,7 @@ FrictionReturn<S, m> radial_return(const Vec<S, m>& trial, const S& stiffness, B
 }
 
 /// Return to an elliptic bound, sqrt(t_F . M t_F) = bound, the slide along its outward normal M t_F: that of the
-/// largest dissipation (theory.md, eq. 5.26-5.29).
+/// largest dissipation (theory.md, eq. 5.26-5.28).
 template <class S>
 FrictionReturn<S, 3> elliptic_return(const Vec<S, 3>& trial, const S& stiffness, const Mat<Real, 3>& metric,
                                      const FrictionBound<S>& bound) {
