@@ -2,8 +2,8 @@
 #pragma once
 
 /// Everything that needs Eigen alone, save the iterative solvers (linear_solver/eigen_iterative.hpp). They, what stands
-/// on other libraries (linear_solver/cholmod.hpp, umfpack.hpp, mumps.hpp, banded.hpp, material/tabulated_hardening.hpp),
-/// io/ and verify/ are included by those who use them.
+/// on other libraries (linear_solver/cholmod.hpp, umfpack.hpp, mumps.hpp, banded.hpp, material/tabulated_hardening.hpp,
+/// geometry/triangulated.hpp), io/ and verify/ are included by those who use them.
 
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/hex8.hpp>
