@@ -146,7 +146,10 @@ class Triangulated {
     return h;
   }
   static Real determinant(const Mat<Real, 2>& h) { return h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0); }
-  static bool definite(const Mat<Real, 2>& h) { return h(0, 0) > 0 && determinant(h) > 1e-6 * h(0, 0) * h(1, 1); }
+  // Whether the distance is convex, seen from x: the curvatures' factors 1 + kappa g, over those of the flat form.
+  static bool definite(const Mat<Real, 2>& h, const Mat<Real, 2>& form) {
+    return h(0, 0) > 0 && determinant(h) > 1e-6 * determinant(form);
+  }
   template <class S>
   static Vec<S, 2> solve(const Mat<Real, 2>& h, const Vec<S, 2>& b) {
     const Real inverse = 1 / determinant(h);
@@ -184,10 +187,9 @@ class Triangulated {
     Local<Real> at(patch, uv[0], uv[1]);
     for (int i = 0; i < 30; ++i) {
       const V2 slope = gradient(at, x);
-      Mat<Real, 2> h = hessian(at, x, true);
-      const bool convex = definite(h);
-      if (!convex) h = hessian(at, x, false);
-      V2 step = solve<Real>(h, -slope);
+      const Mat<Real, 2> exact = hessian(at, x, true), form = hessian(at, x, false);
+      const bool convex = definite(exact, form);
+      V2 step = solve<Real>(convex ? exact : form, -slope);
       const Real size = step.norm(), now = (at.p - x).squaredNorm();
       if (!(size < 1e6)) return false;
       if (size > 1) step /= size;
