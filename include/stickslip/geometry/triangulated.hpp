@@ -71,10 +71,13 @@ class Triangulated {
     tree_.query(tree::nearest(Point(plain[0], plain[1], plain[2]), 1),
                 boost::make_function_output_iterator([&](const Leaf& leaf) { consider(leaf.second, plain, best); }));
     const V reach = V::Constant(best.distance * (1 + tie)), low = plain - reach, high = plain + reach;
-    tree_.query(tree::intersects(Box(Point(low[0], low[1], low[2]), Point(high[0], high[1], high[2]))),
-                boost::make_function_output_iterator([&](const Leaf& leaf) {
-                  if (distance_to(leaf.first, plain) <= best.distance * (1 + tie)) consider(leaf.second, plain, best);
-                }));
+    tree_.query(
+        tree::intersects(Box(Point(low[0], low[1], low[2]), Point(high[0], high[1], high[2]))),
+        boost::make_function_output_iterator([&](const Leaf& leaf) {
+          const Real least = best.distance * (1 + tie);
+          if (distance_to(leaf.first, plain) <= least && distance_at_least(patches_[leaf.second], plain) <= least)
+            consider(leaf.second, plain, best);
+        }));
     return seen(best, x);
   }
 
@@ -549,6 +552,26 @@ class Triangulated {
     const Point &low = box.min_corner(), &high = box.max_corner();
     const V a(low.get<0>(), low.get<1>(), low.get<2>()), b(high.get<0>(), high.get<1>(), high.get<2>());
     return (x - x.cwiseMax(a).cwiseMin(b)).norm();
+  }
+
+  // The distance to the flat triangle less the patch's bulge over it, |sum lambda lambda c| <= max |c| / 3. Far from
+  // the tool many boxes are as near as the closest patch, and this costs less than a foot.
+  static Real distance_at_least(const Patch& patch, const V& x) {
+    const V e = patch.x[1] - patch.x[0], f = patch.x[2] - patch.x[0], d = x - patch.x[0];
+    const V n = detail::cross(e, f);
+    const Real bulge =
+        std::sqrt(std::max({patch.c[0].squaredNorm(), patch.c[1].squaredNorm(), patch.c[2].squaredNorm()})) / 3;
+    Real square = std::numeric_limits<Real>::infinity();
+    bool above = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const V from = x - patch.x[k], edge = patch.x[(k + 1) % 3] - patch.x[k];
+      if (detail::cross(edge, from).dot(n) >= 0) continue;
+      above = false;
+      const Real t = std::clamp(from.dot(edge) / edge.squaredNorm(), Real(0), Real(1));
+      square = std::min(square, (from - t * edge).squaredNorm());
+    }
+    if (above) return std::abs(d.dot(n)) / n.norm() - bulge;
+    return std::sqrt(square) - bulge;
   }
 
   std::vector<Patch> patches_;
