@@ -14,6 +14,8 @@
 namespace {
 
 using namespace tools_3d;
+static_assert(RigidTool<rigid::Revolution, 3> && RigidTool<rigid::Extruded, 3>);
+static_assert(RigidTool<rigid::AnyOf<rigid::Revolution, rigid::Extruded>, 3>);
 
 struct Where {
   bool has_normals = true;  // not so at an apex

@@ -16,6 +16,7 @@ namespace {
 using namespace tools_3d;
 using rigid::Triangles;
 using rigid::Triangulated;
+static_assert(RigidTool<Triangulated, 3>);
 
 std::vector<V3> directions(int count, unsigned seed) {
   std::mt19937 random(seed);
