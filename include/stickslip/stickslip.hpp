@@ -26,6 +26,7 @@
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
+#include <stickslip/linear_solver/corrected.hpp>
 #include <stickslip/linear_solver/eigen_direct.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>

@@ -71,6 +71,35 @@ struct ContactSummary {
   }
 };
 
+/// The couplings of sliding nodes, where they are kept apart from the matrix (keeps_couplings).
+template <int dim>
+class NodeCouplings {
+ public:
+  void reserve(std::size_t nodes) {
+    equations_.reserve(nodes);
+    blocks_.reserve(nodes);
+  }
+  void clear() {
+    equations_.clear();
+    blocks_.clear();
+  }
+  void add(const std::array<Index, static_cast<std::size_t>(dim)>& equations, const Mat<Real, dim>& block) {
+    equations_.push_back(equations);
+    blocks_.push_back(block);
+  }
+  void scale(Real factor) {
+    for (auto& block : blocks_) block *= factor;
+  }
+  NodeBlocks view() const {
+    if (blocks_.empty()) return {};
+    return {static_cast<Index>(blocks_.size()), dim, equations_[0].data(), blocks_[0].data()};
+  }
+
+ private:
+  std::vector<std::array<Index, static_cast<std::size_t>(dim)>> equations_;
+  std::vector<Mat<Real, dim>> blocks_;
+};
+
 /// A contact node at a converged state.
 template <int dim>
 struct ContactNodeState {
@@ -126,6 +155,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
                 "Tool.");
   using Memory = NodeMemory<Real, dim, Enforcement, Friction>;
   using Matrix = SparseMatrix<matrix_storage<Model>>;
+  using Couplings = NodeCouplings<dim>;
   static constexpr bool with_friction = Friction::active;
   static constexpr bool remembers = !std::is_empty_v<Memory>;
   /// Whether steps take several passes for this pair.
@@ -173,6 +203,13 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   void connect(const Dofs& equations, const Matrix& matrix) {
     slots_.clear();
     for (const Index n : nodes_) slots_.push_back(matrix.map(equations, components(n)));
+    if constexpr (keeps_couplings<Model>) {
+      equations_.clear();
+      for (const Index n : nodes_) {
+        equations_.push_back(components(n));
+        for (Index& e : equations_.back()) e = equations.equation(e);
+      }
+    }
   }
 
   /// Whether the penalties are in parts of the body's stiffness, which `measure` must tell before the first assembly.
@@ -233,7 +270,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   /// the iteration, and it takes the forces that closing their defects adds.
   template <class MeshType>
   Trouble assemble(const MeshType& mesh, const Field& u, Real time, Real dt, const Field* driven, Field& forces,
-                   Field* excess, Matrix& matrix) {
+                   Field* excess, Matrix& matrix, Couplings& couplings) {
     const rigid::Pose<dim> pose = motion_.at(time);
     summary_ = {};
     trial_force_.setZero();
@@ -266,17 +303,22 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       }
       if (!node.touching) continue;
       state.force = pose.rotation * node.force;
-      Mat<Real, dim> stiffness = pose.rotation * node.stiffness * pose.rotation.transpose();
-      if (!state.force.allFinite() || !stiffness.allFinite())
-        return {Cause::not_finite, {Place::Kind::contact_node, n}};
+      const Mat<Real, dim> whole = pose.rotation * (node.stiffness + node.coupling) * pose.rotation.transpose();
+      if (!state.force.allFinite() || !whole.allFinite()) return {Cause::not_finite, {Place::Kind::contact_node, n}};
       forces.template segment<dim>(n * dim) += state.force;
       if (excess) {
         pressures_[k].slope = pose.rotation * node.pressure.slope;
         pressures_[k].excess = pose.rotation * node.pressure.excess;
         excess->template segment<dim>(n * dim) += pressures_[k].excess;
       }
-      if (driven) forces.template segment<dim>(n * dim) += stiffness * driven->template segment<dim>(n * dim);
-      matrix.add(slots_[k], stiffness);
+      if (driven) forces.template segment<dim>(n * dim) += whole * driven->template segment<dim>(n * dim);
+      if constexpr (keeps_couplings<Model>) {
+        const Mat<Real, dim> symmetric = pose.rotation * node.stiffness * pose.rotation.transpose();
+        matrix.add(slots_[k], symmetric);
+        if (node.sliding) couplings.add(equations_[k], whole - symmetric);
+      } else {
+        matrix.add(slots_[k], whole);
+      }
 
       trial_force_ += state.force;
       ++summary_.touching;
@@ -405,6 +447,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   [[no_unique_address]] Only<passes, std::vector<Memory>, Friction> renewed_;  // where the present pass starts
   [[no_unique_address]] Only<passes, std::vector<Real>, Enforcement> spacing_;
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dim))>> slots_;
+  using NodeEquations = std::vector<std::array<Index, static_cast<std::size_t>(dim)>>;
+  [[no_unique_address]] Only<keeps_couplings<Model>, NodeEquations, Tool> equations_;
 };
 
 namespace detail {

@@ -46,7 +46,8 @@ struct NodeMemory {
 template <class S, int dim, class Memory>
 struct NodeContact {
   Vec<S, dim> force = Vec<S, dim>::Zero();      ///< R_C + R_F: the node's force on the tool [force]
-  Mat<S, dim> stiffness = Mat<S, dim>::Zero();  ///< its derivative by the node's position
+  Mat<S, dim> stiffness = Mat<S, dim>::Zero();  ///< its derivative by the node's position, but for the coupling
+  Mat<S, dim> coupling = Mat<S, dim>::Zero();   ///< the rest: friction that follows the pressure (eq. 5.9)
   StiffRelation<S, dim> pressure{};             ///< -t_N [force]
   S bound = S(0);                               ///< largest friction force at the current pressure [force]
   S lag = S(0);                                 ///< bound at the current pressure less the bound that was used [force]
@@ -126,7 +127,7 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     for (int k = 0; k < m; ++k) out.stiffness += at.hess_place[static_cast<std::size_t>(k)] * end.traction[k];
     if constexpr (follows_pressure) {
       by_pressure += at.grad_place * end.d_pressure;
-      out.stiffness -= at.grad_place * end.d_pressure * at.normal.transpose() * normal.d_gap;
+      out.coupling = at.grad_place * end.d_pressure * at.normal.transpose() * S(-normal.d_gap);
     }
 
     out.bound = end.bound;

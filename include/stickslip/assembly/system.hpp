@@ -90,7 +90,14 @@ class System {
       }
     });
     body.connect(dofs_, matrix_);
-    if constexpr (with_contact) for_each_contact(pairs, [&](auto& pair) { pair.connect(dofs_, matrix_); });
+    if constexpr (with_contact) {
+      std::size_t nodes = 0;
+      for_each_contact(pairs, [&](auto& pair) {
+        pair.connect(dofs_, matrix_);
+        nodes += pair.nodes().size();
+      });
+      if constexpr (keeps_couplings<Model>) couplings_.reserve(nodes);
+    }
     if constexpr (with_inertia) inertia.connect(matrix_);
     for (Field* f : {&internal_, &contact_, &external_, &balance_, &excess_}) f->setZero(components);
     residual_.setZero(dofs_.unknowns());
@@ -98,7 +105,11 @@ class System {
   }
 
   const Dofs& dofs() const { return dofs_; }
-  SparseView matrix() const { return matrix_.view(); }
+  SparseView matrix() const {
+    SparseView view = matrix_.view();
+    if constexpr (keeps_couplings<Model>) view.corrections = couplings_.view();
+    return view;
+  }
   /// Increases when the pattern changes and the solver must analyse again.
   Index pattern_revision() const { return pattern_revision_; }
 
@@ -248,6 +259,7 @@ class System {
       const Stopwatch watch(timings.assembly);
       static_force_ = balance_;
       inertia_.apply(u, static_force_, balance_, matrix_);
+      if constexpr (keeps_couplings<Model>) couplings_.scale(static_share());
     }
     dofs_.gather(balance_, residual_);
     norm_ = residual_.norm();
@@ -279,9 +291,10 @@ class System {
     if constexpr (with_contact) {
       const Stopwatch watch(timings.contact);
       contact_.setZero();
+      if constexpr (keeps_couplings<Model>) couplings_.clear();
       Trouble trouble;
       for_each_contact(pairs_, [&](auto& pair) {
-        if (!trouble) trouble = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, excess, matrix_);
+        if (!trouble) trouble = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, excess, matrix_, couplings_);
       });
       if (trouble) return trouble;
     }
@@ -302,6 +315,7 @@ class System {
   Inertia& inertia_;
   Dofs dofs_;
   Matrix matrix_;
+  NodeCouplings<dim> couplings_;  // empty unless keeps_couplings
   std::vector<Driven> driven_;
   std::vector<Load> loads_;
   Field internal_, contact_, external_, balance_, residual_;

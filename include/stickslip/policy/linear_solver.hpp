@@ -9,6 +9,15 @@
 
 namespace stickslip {
 
+/// Small blocks that a symmetric matrix lacks to the whole: the couplings of sliding nodes. Block k is square, of
+/// `size` rows, in columns; its rows and columns belong to equation[k * size + i], negative where that is constrained.
+struct NodeBlocks {
+  Index count = 0;
+  Index size = 0;
+  const Index* equation = nullptr;
+  const Real* values = nullptr;
+};
+
 /// Compressed columns of a square matrix, rows ascending. A symmetric one holds its lower triangle only. `values` may
 /// be null where the pattern alone matters.
 struct SparseView {
@@ -17,6 +26,7 @@ struct SparseView {
   const Index* row = nullptr;
   const Real* values = nullptr;
   Symmetry symmetry = Symmetry::general;
+  NodeBlocks corrections{};  ///< still to be added; only for solvers that say `corrects`
 
   Index nonzeros() const { return column_start[size]; }
 };
@@ -40,6 +50,12 @@ concept LinearSolverPolicy = requires(L& solver, const SparseView& matrix, const
   {solver.analyze(matrix)};
   { solver.factorize(matrix) } -> std::same_as<Factorization>;
   { solver.solve(right_hand_side, solution) } -> std::same_as<bool>;
+};
+
+/// Whether a solver takes a general system as a symmetric matrix and the blocks that it lacks.
+template <class L>
+inline constexpr bool takes_corrections = requires {
+  requires L::corrects;
 };
 
 /// A choice that depends on the system: `For<Symmetry>` names the solver.

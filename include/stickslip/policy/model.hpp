@@ -34,13 +34,22 @@ constexpr bool takes_passes() {
 template <class Model>
 inline constexpr bool has_inertia = Model::Inertia::active;
 
+/// Symmetry of the normal contact.
+template <class Model>
+constexpr Symmetry enforcement_symmetry() {
+  if constexpr (has_contact<Model>)
+    return Model::Enforcement::symmetry;
+  else
+    return Symmetry::symmetric;
+}
+
 /// Symmetry of the contact terms: enforcement, friction bound and pressure source together.
 template <class Model>
 constexpr Symmetry contact_symmetry() {
   if constexpr (!has_contact<Model>)
     return Symmetry::symmetric;
   else
-    return widest(Model::Enforcement::symmetry, friction_symmetry<typename Model::Friction>());
+    return widest(enforcement_symmetry<Model>(), friction_symmetry<typename Model::Friction>());
 }
 
 /// Symmetry of the whole system: the widest over all policies.
@@ -62,9 +71,20 @@ struct SolverFor<Solver, system> {
 template <class Model>
 using SolverOf = typename detail::SolverFor<typename Model::LinearSolver, system_symmetry<Model>>::type;
 
-/// Triangle or full matrix: symmetric systems keep their lower triangle unless the solver wants all of it.
+/// Triangle or full matrix: symmetric systems keep their lower triangle unless the solver wants all of it; general ones
+/// only for a solver that takes what the triangle lacks apart, which contact and friction can tell and a material
+/// cannot.
 template <class Model>
-inline constexpr Symmetry matrix_storage = widest(system_symmetry<Model>, SolverOf<Model>::storage);
+inline constexpr Symmetry matrix_storage = (takes_corrections<SolverOf<Model>> &&
+                                            widest(Model::Material::symmetry, enforcement_symmetry<Model>()) ==
+                                                Symmetry::symmetric)
+                                               ? SolverOf<Model>::storage
+                                               : widest(system_symmetry<Model>, SolverOf<Model>::storage);
+
+/// True when the matrix is stored as a triangle and the couplings of sliding nodes apart.
+template <class Model>
+inline constexpr bool keeps_couplings = (system_symmetry<Model> == Symmetry::general) &&
+                                        (matrix_storage<Model> == Symmetry::symmetric);
 
 namespace detail {
 // A solver by its storage alone.
@@ -73,6 +93,7 @@ struct StorageOnly {
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::general;
   static constexpr Symmetry storage = storage_;
+  static constexpr bool corrects = storage_ == Symmetry::symmetric;
   void analyze(const SparseView&);
   Factorization factorize(const SparseView&);
   bool solve(const Real*, Real*);
@@ -145,6 +166,9 @@ template <class Model>
 concept SolverAcceptsSystem =
     !HasSymmetry<Model> || !LinearSolver<Model> || system_symmetry<Model> == Symmetry::symmetric ||
     SolverOf<Model>::accepts == Symmetry::general;
+template <class Model>
+concept CorrectsCouplings = !HasSymmetry<Model> || !LinearSolver<Model> || !takes_corrections<SolverOf<Model>> ||
+                            widest(Model::Material::symmetry, enforcement_symmetry<Model>()) == Symmetry::symmetric;
 }  // namespace rule
 
 /// True for a bundle that meets every rule.
@@ -152,7 +176,7 @@ template <class Model>
 inline constexpr bool valid_model = rule::Kinematics<Model>&& rule::Element<Model>&& rule::SameDimension<Model>&&
     rule::Material<Model>&& rule::Friction<Model>&& rule::Enforcement<Model>&& rule::FrictionNeedsContact<Model>&&
         rule::DirectionsNeedSpace<Model>&& rule::Inertia<Model>&& rule::LinearSolver<Model>&&
-            rule::SolverAcceptsSystem<Model>;
+            rule::SolverAcceptsSystem<Model>&& rule::CorrectsCouplings<Model>;
 
 /// Instantiate to have a bundle checked, one sentence for each rule.
 template <class Model>
@@ -190,6 +214,10 @@ struct CheckModel {
       "stickslip: the bundle's LinearSolver takes symmetric systems only, but Friction with the current pressure (or "
       "the "
       "Material) makes the tangent non-symmetric; take Quasi<...> friction, or a general solver such as EigenLu.");
+  static_assert(
+      rule::CorrectsCouplings<Model>,
+      "stickslip: the bundle's LinearSolver corrects a symmetric factor for sliding nodes, but the Material or "
+      "the Enforcement is not symmetric either; take a general solver such as EigenLu.");
   static constexpr bool ok = true;
 };
 

@@ -31,7 +31,7 @@ struct LoneNode {
   /// The same at a pressure that is not the one of the gap.
   RelationSample<dim> open(const Vec<Real, dim>& x, const Memory<Real>& old, Real pressure, Real dt = 1) const {
     const auto node = at_pressure<Real>(surface_point<Real, dim>(tool, x), pressure, old, dt);
-    return {node.force, node.stiffness, node.pressure};
+    return {node.force, node.stiffness + node.coupling, node.pressure};
   }
 
   /// The memory that all but the last place of a path leave; the first place is where the node starts.
@@ -64,7 +64,8 @@ template <class Enforcement, class Law, class Friction, class Tool, int dim>
 TangentReport contact_tangent(const LoneNode<Enforcement, Law, Friction, Tool, dim>& node,
                               const std::vector<Vec<Real, dim>>& path, Real dt = 1, Real step = 1e-5) {
   const auto old = node.template preloaded<Real>(path, dt);
-  const Mat<Real, dim> stiffness = node.template at<Real>(path.back(), old, dt).stiffness;
+  const auto now = node.template at<Real>(path.back(), old, dt);
+  const Mat<Real, dim> stiffness = now.stiffness + now.coupling;
   const auto dual_old = node.template preloaded<Dual<dim>>(path, dt);
   const Mat<Real, dim> by_duals =
       slopes<dim, dim>(node.template at<Dual<dim>>(seeded<dim>(path.back()), dual_old, dt).force);
