@@ -61,6 +61,18 @@ TEST_CASE("bounds that passes bring up to date give the answer of the current pr
   }
 }
 
+TEST_CASE("a symmetrised tangent comes to the same answer in more iterations") {
+  const Penalty penalty{.normal = 1e5, .tangential = 2e4};
+  using Symmetric = With<EigenLdlt, WithPressure<Coulomb, Symmetrised>, Penalty>;
+  static_assert(system_symmetry<Symmetric> == Symmetry::symmetric);
+  const Run exact = run<With<EigenLu, Coulomb, Penalty>>(0.2, penalty);
+  const Run symmetrised = run<Symmetric>(0.2, penalty);
+  CHECK((symmetrised.u - exact.u).norm() < 1e-6 * exact.u.norm());
+  CHECK((symmetrised.force - exact.force).norm() < 1e-6 * exact.force.norm());
+  CHECK(symmetrised.report.iterations > exact.report.iterations);
+  CHECK(symmetrised.report.iterations < 5 * exact.report.iterations);
+}
+
 TEST_CASE("augmented Lagrangian: no penetration is left, whatever the stiffness, and nothing has to be chosen") {
   using General = With<EigenLu, Coulomb, AugmentedLagrangian>;
   using Symmetric = With<EigenLdlt, LagIteratedCoulomb, AugmentedLagrangian>;

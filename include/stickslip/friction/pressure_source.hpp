@@ -21,6 +21,12 @@ struct CurrentPressure {
   }
 };
 
+/// The normal force of the iterate in the residual, the tangent's share of it symmetrised: the exact answer by symmetric
+/// systems, at more iterations (theory.md, section 5.9).
+struct Symmetrised : CurrentPressure {
+  static constexpr bool symmetrised = true;
+};
+
 /// The normal force at the last converged step (paper, eq. 20 and 21): a symmetric tangent, and a bound that lags one
 /// step behind. At first contact it is zero, so a node slides freely in the step that brings it into contact.
 struct LastConverged {

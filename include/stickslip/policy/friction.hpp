@@ -62,6 +62,15 @@ constexpr bool is_iterated() {
     return false;
 }
 
+/// Whether a source that follows the current pressure has its part of the tangent symmetrised.
+template <class Source>
+constexpr bool is_symmetrised() {
+  if constexpr (requires { Source::symmetrised; })
+    return Source::symmetrised;
+  else
+    return false;
+}
+
 /// Where the normal force in a friction bound is taken from. `Memory` is what that needs to remember at a node.
 /// docs/policies.md, section Pressure source.
 template <class P>
@@ -122,7 +131,8 @@ struct Frictions {
   static constexpr bool any_general = ((F::active &&
                                         [] {
                                           if constexpr (F::active)
-                                            return F::Law::depends_on_pressure && F::Pressure::follows_current;
+                                            return F::Law::depends_on_pressure && F::Pressure::follows_current &&
+                                                   !is_symmetrised<typename F::Pressure>();
                                           else
                                             return false;
                                         }()) ||
