@@ -33,6 +33,8 @@
 #include <stickslip/material/hencky.hpp>
 #include <stickslip/material/hypoelastic_j2.hpp>
 #include <stickslip/material/neo_hookean.hpp>
+#include <stickslip/mesh/extrude.hpp>
+#include <stickslip/mesh/quarter_disc.hpp>
 #include <stickslip/problem.hpp>
 
 namespace stickslip {

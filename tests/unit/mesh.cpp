@@ -7,7 +7,9 @@
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
+#include <stickslip/mesh/extrude.hpp>
 #include <stickslip/mesh/mesh.hpp>
+#include <stickslip/mesh/quarter_disc.hpp>
 
 #include <doctest/doctest.h>
 
@@ -173,6 +175,139 @@ TEST_CASE("box: named sides lie on their planes, the normals of their facets poi
   check("top", 1, 1);
   check("back", 2, -1);
   check("front", 2, 1);
+}
+
+TEST_CASE("quarter disc: every node and cell once, convex cells, the area of the polygon of its rim") {
+  for (const auto& cells : {std::array<Index, 2>{1, 1}, {2, 3}, {7, 7}, {9, 2}, {1, 6}}) {
+    const Real radius = 3;
+    const auto m = mesh::quarter_disc({.radius = radius, .cells = cells});
+    const Index n = cells[0];
+    CHECK(m.cell_count() == n * n + 2 * n * cells[1]);
+    CHECK(m.node_count() == (n + 1) * (n + 1) + (2 * n + 1) * cells[1]);
+    Real sum = 0, smallest = 1;
+    std::set<std::set<Index>> seen;
+    std::vector<int> used(m.nodes.size(), 0);
+    for (std::size_t e = 0; e < m.cells.size(); ++e) {
+      sum += area(m, e);
+      seen.insert({m.cells[e].begin(), m.cells[e].end()});
+      for (std::size_t a = 0; a < 4; ++a) {
+        ++used[std::size_t(m.cells[e][a])];
+        const auto at = [&](std::size_t b) { return m.nodes[std::size_t(m.cells[e][b % 4])]; };
+        const Vec<Real, 2> u = (at(a + 1) - at(a)).normalized(), v = (at(a + 3) - at(a)).normalized();
+        smallest = std::min(smallest, u[0] * v[1] - u[1] * v[0]);  // sine of the angle at the corner
+      }
+    }
+    CHECK(seen.size() == m.cells.size());
+    CHECK(*std::min_element(used.begin(), used.end()) > 0);
+    CHECK(smallest > 0.75);  // between 49 and 131 degrees
+    CHECK(sum == doctest::Approx(0.5 * radius * radius * 2 * n * std::sin(0.25 * pi / n)).epsilon(1e-14));
+    std::set<std::pair<Real, Real>> places;
+    for (const auto& x : m.nodes) places.insert({x[0], x[1]});
+    CHECK(places.size() == m.nodes.size());
+    for (const auto& x : m.nodes) CHECK(places.count({x[1], x[0]}) == 1);  // a mirror image of itself
+  }
+}
+
+TEST_CASE("quarter disc: sides on the axes and the circle, cells of one length along the axes") {
+  const auto m = mesh::quarter_disc({.radius = 14, .cells = {7, 7}});
+  const auto inside = [&](const std::array<Index, 2>& facet) {
+    const Vec<Real, 2> a = m.nodes[std::size_t(facet[0])], along = m.nodes[std::size_t(facet[1])] - a,
+                       to = Vec<Real, 2>(4, 4) - a;
+    return along[0] * to[1] - along[1] * to[0] > 0;
+  };
+  for (const auto& [name, count] : {std::pair("x=0", 14u), {"y=0", 14u}, {"rim", 14u}}) {
+    const auto& side = m.side(name);
+    CHECK(side.facets.size() == count);
+    CHECK(side.nodes.size() == count + 1);
+    for (const auto& facet : side.facets) CHECK(inside(facet));
+  }
+  for (std::size_t k = 0; k < 15; ++k) {
+    const Real along = static_cast<Real>(k);
+    const auto &x = m.nodes[std::size_t(m.side("y=0").nodes[k])],
+               &y = m.nodes[std::size_t(m.side("x=0").nodes[14 - k])];
+    CHECK((x - Vec<Real, 2>(along, 0)).norm() < 1e-13);
+    CHECK((y - Vec<Real, 2>(0, along)).norm() < 1e-13);
+    CHECK(x[1] == 0);
+    CHECK(y[0] == 0);
+    CHECK(m.nodes[std::size_t(m.side("rim").nodes[k])].norm() == doctest::Approx(14).epsilon(1e-15));
+  }
+  Index widest = 0;
+  for (const auto& c : m.cells)
+    widest = std::max(widest, *std::max_element(c.begin(), c.end()) - *std::min_element(c.begin(), c.end()));
+  CHECK(widest == 16);  // 15 nodes an arc: the next arc's neighbour is 15 + 1 away
+}
+
+TEST_CASE("an extruded rectangle is a box") {
+  const auto flat = mesh::rectangle({.origin = {1, -2}, .size = {3, 4}, .cells = {3, 5}});
+  const auto m = mesh::extrude(flat, {.thickness = 2, .layers = 2, .from = 5});
+  const auto b = mesh::box({.origin = {1, -2, 5}, .size = {3, 4, 2}, .cells = {3, 5, 2}});
+  REQUIRE(m.node_count() == b.node_count());
+  REQUIRE(m.cell_count() == b.cell_count());
+  // Numbered alike, as there are fewer layers than cells across.
+  for (std::size_t n = 0; n < m.nodes.size(); ++n) CHECK((m.nodes[n] - b.nodes[n]).norm() < 1e-14);
+  CHECK(std::set(m.cells.begin(), m.cells.end()) == std::set(b.cells.begin(), b.cells.end()));
+  REQUIRE(m.sides.size() == b.sides.size());
+  for (const auto& [name, side] : b.sides) {
+    const auto& mine = m.side(name);
+    CHECK(std::set(mine.nodes.begin(), mine.nodes.end()) == std::set(side.nodes.begin(), side.nodes.end()));
+    CHECK(mine.nodes.size() == side.nodes.size());
+    CHECK(mine.facets.size() == side.facets.size());
+    // The same facets, wherever their walk begins.
+    std::set<std::array<Index, 4>> walks;
+    for (const auto& [p, q, r, s] : side.facets) walks.insert({{p, q, r, s}, {q, r, s, p}, {r, s, p, q}, {s, p, q, r}});
+    for (const auto& facet : mine.facets) CHECK(walks.count(facet) == 1);
+  }
+}
+
+TEST_CASE("an extruded quarter disc: cells of positive volume that add up, a closed skin, named faces") {
+  const auto m = mesh::extrude(mesh::quarter_disc({.radius = 3, .cells = {4, 3}}),
+                               {.thickness = 0.5, .layers = 2, .low = "bottom", .high = "top"});
+  Real sum = 0;
+  for (std::size_t e = 0; e < m.cells.size(); ++e) {
+    CHECK(volume(m, e) > 0);
+    sum += volume(m, e);
+  }
+  CHECK(sum == doctest::Approx(0.5 * 4.5 * 8 * std::sin(pi / 16)).epsilon(1e-14));
+  V3 skin = V3::Zero();  // twice the vector area, which vanishes for a closed surface whose normals agree
+  Real enclosed = 0;     // six times the volume, by the divergence theorem
+  for (const auto& [name, side] : m.sides) {
+    CHECK(std::set(side.nodes.begin(), side.nodes.end()).size() == side.nodes.size());
+    for (const auto& f : side.facets) {
+      std::array<V3, 4> x;
+      for (std::size_t a = 0; a < 4; ++a) x[a] = m.nodes[std::size_t(f[a])];
+      const V3 twice = cross(x[2] - x[0], x[3] - x[1]);
+      skin += twice;
+      enclosed += twice.dot(0.25 * (x[0] + x[1] + x[2] + x[3]));
+    }
+  }
+  CHECK(skin.norm() < 1e-14);
+  CHECK(enclosed == doctest::Approx(6 * sum).epsilon(1e-14));
+  for (const auto& [name, z] : {std::pair("bottom", 0.0), {"top", 0.5}})
+    for (const Index n : m.side(name).nodes) CHECK(m.nodes[std::size_t(n)][2] == z);
+  CHECK(m.side("rim").facets.size() == 16);
+  CHECK(m.side("x=0").nodes.size() == 24);
+}
+
+TEST_CASE("generators name the input that they cannot take") {
+  const auto complaint = [](auto&& make) -> std::string {
+    try {
+      make();
+    } catch (const std::invalid_argument& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const auto flat = mesh::rectangle({});
+  const Real nan = std::nan("");
+  CHECK(complaint([] { mesh::quarter_disc({.cells = {0, 3}}); }).find("cell") != std::string::npos);
+  CHECK(complaint([] { mesh::quarter_disc({.cells = {3, 0}}); }).find("cell") != std::string::npos);
+  CHECK(complaint([] { mesh::quarter_disc({.radius = -1}); }).find("radius") != std::string::npos);
+  CHECK(complaint([&] { mesh::quarter_disc({.radius = nan}); }).find("radius") != std::string::npos);
+  CHECK(complaint([&] { mesh::extrude(flat, {.layers = 0}); }).find("layer") != std::string::npos);
+  CHECK(complaint([&] { mesh::extrude(flat, {.thickness = 0}); }).find("thickness") != std::string::npos);
+  CHECK(complaint([&] { mesh::extrude(flat, {.from = nan}); }).find("start") != std::string::npos);
+  CHECK(complaint([&] { mesh::extrude(flat, {.high = "left"}); }).find("\"left\"") != std::string::npos);
+  CHECK(complaint([&] { mesh::extrude(flat, {.low = "a", .high = "a"}); }).find("\"a\"") != std::string::npos);
 }
 
 TEST_CASE("the area that a node carries of a facet in space") {
