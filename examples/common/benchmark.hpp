@@ -20,6 +20,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace examples {
 
@@ -41,6 +42,7 @@ struct Benchmark {
   bool energies = false;                                                     ///< keep the books of work and energy
   std::function<bool(const stickslip::Problem<Model>&)> self_penetration{};  ///< whether the body passes through itself
   double reach_mm = 100;                                                     ///< how far the tools are drawn
+  std::string section{};  ///< of a mesh in space, the side that is drawn: see patches()
 };
 
 /// Marches the problem to its end, keeps about 40 states as VTU and the deformed mesh at the march's stops, and writes
@@ -86,7 +88,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
     if (files)
       for (const double stop : benchmark.march.stops)
         if (std::abs(step.time - stop) < 1e-9 * benchmark.march.end)
-          write_mesh_data(options.output / shot_name(r.travel_mm.back()), problem);
+          write_mesh_data(options.output / shot_name(r.travel_mm.back()), problem, benchmark.section);
     show_progress(options, r, step.time / benchmark.march.end);
     if (files && step.time >= next_frame) {
       keep_state();
@@ -106,7 +108,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   r.seconds = clock.seconds();
   if (files) {
     if (last_frame < problem.time()) keep_state();
-    write_mesh_data(options.output / "mesh.dat", problem);
+    write_mesh_data(options.output / "mesh.dat", problem, benchmark.section);
     write_tool_data(options.output / "tools.dat", problem, benchmark.reach_mm);
   }
   return conclude(options, r);

@@ -43,24 +43,35 @@ struct With : Base {
   using LinearSolver = Solver_;
 };
 
+/// The solvers that take the system of the options' friction law.
+template <class Base, class Frictions, class Solvers>
+std::vector<std::string> able(const Options& options, const Frictions& frictions, const Solvers& solvers) {
+  std::vector<std::string> found;
+  frictions.for_each([&]<class F>(Named<F> friction) {
+    if (options.friction != friction.name) return;
+    solvers.for_each([&]<class S>(Named<S> solver) {
+      if constexpr (stickslip::valid_model<With<Base, F, S>>) found.emplace_back(solver.name);
+    });
+  });
+  return found;
+}
+
 /// Calls run.template operator()<Model>() for the bundle that the options name.
 template <class Base, class Frictions, class Solvers, class Run>
 int dispatch(const Options& options, const Frictions& frictions, const Solvers& solvers, Run&& run) {
   int code = -1;
-  std::vector<std::string> able;
   frictions.for_each([&]<class F>(Named<F> friction) {
     if (options.friction != friction.name) return;
     solvers.for_each([&]<class S>(Named<S> solver) {
       using Model = With<Base, F, S>;
-      if constexpr (stickslip::valid_model<Model>) {
-        able.emplace_back(solver.name);
+      if constexpr (stickslip::valid_model<Model>)
         if (options.solver == solver.name) code = run.template operator()<Model>();
-      }
     });
   });
   if (code < 0)
     throw BadOption("--solver: \"" + options.solver + "\" takes symmetric systems only and --friction " +
-                    options.friction + " makes a non-symmetric one; it takes " + joined(able));
+                    options.friction + " makes a non-symmetric one; it takes " +
+                    joined(able<Base>(options, frictions, solvers)));
   return code;
 }
 

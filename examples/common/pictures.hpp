@@ -4,9 +4,14 @@
 
 #include <stickslip/problem.hpp>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace examples {
@@ -16,26 +21,63 @@ namespace examples {
 void draw(const std::filesystem::path& directory, const std::string& name, const std::string& body, int width = 900,
           int height = 600);
 
-/// Data of the deformed mesh, a gnuplot pm3d patch a cell: x, y, plastic strain (mean over the points).
+/// Mean plastic strain of every cell; zeros where the material has none.
 template <class Model>
-void write_mesh_data(const std::filesystem::path& path, const stickslip::Scene<Model>& problem) {
-  const auto& mesh = problem.body().mesh();
-  std::vector<double> value(mesh.cells.size(), 0.0), volume(mesh.cells.size(), 0.0);
-  if constexpr (requires(typename stickslip::Problem<Model>::BodyType::State s) { s.plastic_strain; })
+std::vector<double> plastic_strains(const stickslip::Scene<Model>& problem) {
+  const auto cells = static_cast<std::size_t>(problem.body().mesh().cell_count());
+  std::vector<double> value(cells, 0.0), volume(cells, 0.0);
+  if constexpr (requires(typename stickslip::Scene<Model>::BodyType::State s) { s.plastic_strain; })
     problem.body().visit_points(problem.displacement(),
                                 [&](stickslip::Index e, int, const auto&, const auto& state, double weight) {
                                   value[static_cast<std::size_t>(e)] += weight * state.plastic_strain;
                                   volume[static_cast<std::size_t>(e)] += weight;
                                 });
+  for (std::size_t e = 0; e < cells; ++e)
+    if (volume[e] > 0) value[e] /= volume[e];
+  return value;
+}
+
+/// The patches of a picture: four nodes and the cell that they belong to. In the plane the cells themselves, in space
+/// the facets of the side `section`, which lies in the half-plane of the first and the last coordinate.
+template <class MeshType>
+auto patches(const MeshType& mesh, [[maybe_unused]] const std::string& section) {
+  std::vector<std::pair<std::array<stickslip::Index, 4>, std::size_t>> found;
+  if constexpr (MeshType::dim == 2) {
+    for (std::size_t e = 0; e < mesh.cells.size(); ++e) found.emplace_back(mesh.cells[e], e);
+  } else {
+    const auto sorted = [](auto nodes) {
+      std::sort(nodes.begin(), nodes.end());
+      return nodes;
+    };
+    const auto& side = mesh.side(section);
+    const std::set<stickslip::Index> listed(side.nodes.begin(), side.nodes.end());
+    std::map<std::array<stickslip::Index, 4>, std::size_t> cell_behind;
+    for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+      std::vector<stickslip::Index> on_side;
+      for (const auto n : mesh.cells[e])
+        if (listed.count(n) > 0) on_side.push_back(n);
+      if (on_side.size() == 4) cell_behind[sorted(std::array{on_side[0], on_side[1], on_side[2], on_side[3]})] = e;
+    }
+    for (const auto& facet : side.facets) found.emplace_back(facet, cell_behind.at(sorted(facet)));
+  }
+  return found;
+}
+
+/// Data of the deformed mesh, a gnuplot pm3d patch each: x, y, plastic strain (mean over the points). Of a mesh in
+/// space its `section`, see patches().
+template <class Model>
+void write_mesh_data(const std::filesystem::path& path, const stickslip::Scene<Model>& problem,
+                     const std::string& section = "") {
+  constexpr int dim = Model::Kinematics::dim;
+  const auto& mesh = problem.body().mesh();
+  const std::vector<double> value = plastic_strains(problem);
   std::ofstream out(path);
   out << "# x y plastic_strain x_at_start y_at_start: one patch a cell\n";
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const auto& cell = mesh.cells[e];
+  for (const auto& [nodes, cell] : patches(mesh, section)) {
     for (const std::size_t a : {0u, 1u, 3u, 2u}) {
-      const auto n = cell[a];
-      const stickslip::Vec<double, 2> x = mesh.nodes[static_cast<std::size_t>(n)] + problem.displacement(n);
-      out << x[0] << ' ' << x[1] << ' ' << (volume[e] > 0 ? value[e] / volume[e] : 0.0) << ' '
-          << mesh.nodes[static_cast<std::size_t>(n)][0] << ' ' << mesh.nodes[static_cast<std::size_t>(n)][1] << '\n';
+      const stickslip::Vec<double, dim> start = mesh.nodes[static_cast<std::size_t>(nodes[a])],
+                                        x = start + problem.displacement(nodes[a]);
+      out << x[0] << ' ' << x[dim - 1] << ' ' << value[cell] << ' ' << start[0] << ' ' << start[dim - 1] << '\n';
       if (a == 1) out << '\n';
     }
     out << "\n\n";
@@ -46,16 +88,21 @@ void write_mesh_data(const std::filesystem::path& path, const stickslip::Scene<M
 /// Name of the file that holds the deformed mesh at a travel: mesh_10.0.dat.
 std::string shot_name(double travel_mm);
 
-/// Data of the tools at a time, a block each.
+/// Data of the tools at a time, a block each. In space they are surfaces of revolution about the last coordinate's
+/// axis.
 template <class Model>
 void write_tool_data(const std::filesystem::path& path, const stickslip::Scene<Model>& problem, double reach) {
   std::ofstream out(path);
   problem.visit_contacts([&](const auto& pair) {
     const auto pose = pair.motion().at(problem.time());
-    for (const auto& p : pair.tool().sample(reach / 200, reach)) {
-      const stickslip::Vec<double, 2> x = pose.rotation * p + pose.translation;
-      out << x[0] << ' ' << x[1] << " 0\n";
-    }
+    if constexpr (Model::Kinematics::dim == 2)
+      for (const auto& p : pair.tool().sample(reach / 200, reach)) {
+        const stickslip::Vec<double, 2> x = pose.rotation * p + pose.translation;
+        out << x[0] << ' ' << x[1] << " 0\n";
+      }
+    else
+      for (const auto& p : pair.tool().meridian().sample(reach / 200, reach))
+        out << p[0] << ' ' << p[1] + pose.translation[2] << " 0\n";
     out << "\n\n";
   });
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+// A linear solver that is chosen as the program runs: one bundle for all that want the same storage, where a bundle
+// each would take minutes to compile. It is a policy like any other, so the library need not know of it.
+#pragma once
+
+#include <stickslip/policy/linear_solver.hpp>
+
+#include <memory>
+#include <string>
+
+namespace examples {
+
+/// A solver behind virtual functions. A call a factorisation costs nothing that can be measured.
+class AnySolver {
+ public:
+  virtual ~AnySolver() = default;
+  virtual void analyze(const stickslip::SparseView& pattern) = 0;
+  virtual stickslip::Factorization factorize(const stickslip::SparseView& matrix) = 0;
+  virtual bool solve(const double* right_hand_side, double* solution) = 0;
+};
+
+/// A new solver for matrices of that storage; throws std::invalid_argument if the name has none.
+std::unique_ptr<AnySolver> make_solver(const std::string& name, stickslip::Symmetry storage);
+
+/// The solver that the command line named. Newton's method makes its solver itself, so the name must be told before.
+inline std::string chosen_solver;
+
+template <stickslip::Symmetry storage_>
+class ChosenSolver {
+ public:
+  using Role = stickslip::role::LinearSolver;
+  static constexpr stickslip::Symmetry accepts = storage_, storage = storage_;
+
+  void analyze(const stickslip::SparseView& pattern) { solver_->analyze(pattern); }
+  stickslip::Factorization factorize(const stickslip::SparseView& matrix) { return solver_->factorize(matrix); }
+  bool solve(const double* right_hand_side, double* solution) { return solver_->solve(right_hand_side, solution); }
+
+ private:
+  std::unique_ptr<AnySolver> solver_ = make_solver(chosen_solver, storage_);
+};
+
+/// For solvers that keep the lower triangle of a symmetric matrix, for those that keep the whole matrix, and for those
+/// that have one for each.
+using ChosenLower = ChosenSolver<stickslip::Symmetry::symmetric>;
+using ChosenFull = ChosenSolver<stickslip::Symmetry::general>;
+struct ChosenEither {
+  using Role = stickslip::role::LinearSolver;
+  template <stickslip::Symmetry system>
+  using For = ChosenSolver<system>;
+};
+
+}  // namespace examples

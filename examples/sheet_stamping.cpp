@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSL-1.0
+//
+// The hemispherical punch of osu_punch.cpp in three dimensions: a quarter of the sheet.
+//
+// The same sheet, tools, material and law of friction, but nothing is known of the symmetry about the axis: the
+// solid elements, contact and friction are those of space. Its force must be that of the axisymmetric program.
+//
+//        z |      . punch .          Symmetric about the planes x = 0 and y = 0, which hold the sheet. Clamped at its
+//          |_____/_________|_____    rim. Forces are those of the full punch.
+//    sheet |_____________________|x
+//         /|             (  die      --refine N has 7N x 7N elements in the middle, as many between it and each half
+//       y/ +---------------------    of the rim, and 2N through the thickness: 14N along a radius, as osu_punch has.
+//
+// With --solver-table on, every solver that takes the system marches to the travel and its costs are printed:
+// sheet_stamping --refine 3 --travel 1 --solver-table on
+
+#include "sheet_stamping/scene.hpp"
+
+#include "common/solver_table.hpp"
+
+using namespace stickslip;
+
+// Instantiated once each, in the units of the folder sheet_stamping.
+extern template int stamp<Stamping<Coulomb, examples::ChosenFull>>(const examples::Options&);
+extern template int stamp<Stamping<QuasiCoulomb, examples::ChosenLower>>(const examples::Options&);
+extern template int stamp<Stamping<QuasiCoulomb, examples::ChosenFull>>(const examples::Options&);
+extern template int stamp<Stamping<Frictionless, examples::ChosenLower>>(const examples::Options&);
+extern template int stamp<Stamping<Frictionless, examples::ChosenFull>>(const examples::Options&);
+
+int main(int argc, char** argv) {
+  using examples::ChosenEither, examples::ChosenFull, examples::ChosenLower, examples::Named;
+  constexpr auto frictions = examples::coulomb_laws;
+  constexpr examples::Choices solvers{Named<ChosenEither>{"mumps"},
+                                      Named<ChosenLower>{"cholmod"},
+                                      Named<ChosenFull>{"umfpack"},
+                                      Named<ChosenEither>{"banded"},
+                                      Named<ChosenLower>{"eigen-ldlt"},
+                                      Named<ChosenFull>{"eigen-lu"},
+                                      Named<ChosenLower>{"conjugate-gradients"},
+                                      Named<ChosenFull>{"bicgstab"}};
+  const examples::Program program{
+      .name = "sheet_stamping",
+      .title = "a quarter of a clamped sheet stretched over a hemispherical punch, in three dimensions",
+      .frictions = frictions.list(),
+      .solvers = solvers.list(),
+      .mu = 0.15,
+      .parameters = {
+          {.name = "travel", .about = "punch travel in mm", .value = 40, .low = 0.1, .high = 500},
+          {.name = "solver-table",
+           .about = "run with every solver that takes the system and print what an iteration costs",
+           .names = {"off", "on"}},
+          {.name = "memory", .about = "GiB for a solver of the table", .value = 12, .low = 0.1, .high = 1e4},
+          {.name = "patience", .about = "seconds for a solver of the table", .value = 3600, .low = 1, .high = 1e6}}};
+  return examples::guarded(program.name, [&] {
+    const auto options = examples::parse(argc, argv, program);
+    if (!options) return 0;
+    using Any = Stamping<QuasiCoulomb, ChosenLower>;
+    if (options->list) return examples::print_list<Any>(frictions, solvers);
+    const auto run = [&](const examples::Options& o) {
+      return examples::dispatch<Any>(o, frictions, solvers, [&]<class Model>() {
+        examples::chosen_solver = o.solver;
+        return stamp<Stamping<typename Model::Friction, SolverOf<Model>>>(o);
+      });
+    };
+    if (options->parameters.at("solver-table") == 0) return run(*options);
+    return examples::print_solver_table(*options, examples::able<Any>(*options, frictions, solvers),
+                                        options->parameters.at("memory"), options->parameters.at("patience"), run);
+  });
+}
