@@ -54,7 +54,7 @@ def draw(vtu, folder, title):
             print(*corners[:2], "", *corners[2:], "\n", sep="\n", file=data)
     script = (f"set title '{title}'\nset view 52,35\nset view equal xyz\nset key off\nset cblabel 'plastic strain'\n"
               "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
-              "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\nset zlabel 'z [mm]' rotate\nset xyplane at -45\nset xtics 20\nset ytics 20\nset ztics 10\n"
+              "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\nset zlabel 'z [mm]' rotate\nset xyplane at -45\nset xtics 20\nset ytics 20,20\nset ztics 10\n"
               "set xrange [0:60]\nset yrange [0:60]\nset zrange [-45:5]\n"
               "set pm3d depthorder corners2color c1 border lc rgb '#404040' lw 0.3\nsplot 'skin.dat' using 1:2:3:4 with pm3d\nunset output\n")
     (folder / "sheet.gp").write_text("".join(
