@@ -66,6 +66,7 @@ class March {
   March(Problem<Model>& problem, const MarchOptions& options);
   void advance();
   Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
+  bool feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact);
 
   Scene<Mechanical>& problem_;
   MarchOptions options_;
@@ -74,7 +75,9 @@ class March {
   StepReport step_{};
   RunReport report_{};
   Outcome outcome_{};
-  Field trial_, driven_;
+  Field trial_, driven_, pass_start_;
+  Real last_swing_ = 0;  // of the bounds' lag, over the bounds
+  Index swings_ = 0;     // steps in a row in which it changed its sign and did not fall
   bool begun_ = false;
   bool ended_ = false;
 };
@@ -161,8 +164,15 @@ Index March<Model>::pass_again([[maybe_unused]] Field& u, [[maybe_unused]] Real 
       if (before > 0 && now > 0.25 * before) system.stiffen(4);
       before = now;
       system.renew();
-      const NewtonReport again = newton_.resume(system, u, time, dt);
+      pass_start_ = u;
+      NewtonReport again = newton_.resume(system, u, time, dt);
       ++passes;
+      while (again.trouble && system.hold_back()) {
+        newton.iterations += again.iterations;
+        u = pass_start_;
+        again = newton_.solve(system, u, time, dt);
+        ++passes;
+      }
       newton.iterations += again.iterations;
       newton.residual = again.residual;
       newton.trouble = again.trouble;
@@ -170,6 +180,30 @@ Index March<Model>::pass_again([[maybe_unused]] Field& u, [[maybe_unused]] Real 
     }
   }
   return passes;
+}
+
+/// Whether a lagging bound feeds back on its own pressure in the converged step (theory.md, eq. 5.31). Asked where the
+/// lag has swung to and fro without falling, and at the end of the run; the step is left as it was.
+template <class Model>
+bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact) {
+  if constexpr (has_lag<Model>()) {
+    if (!options_.watch_lag || takes_passes<Model>()) return false;
+    constexpr Real notable = 0.01;
+    const Real swing = contact.bound > 0 ? contact.swing / contact.bound : 0;
+    const bool swung = swing * last_swing_ < 0 && std::abs(swing) > std::max(notable, 0.7 * std::abs(last_swing_));
+    swings_ = swung ? swings_ + 1 : 0;
+    last_swing_ = swing;
+    if (swings_ < 3 && !(time >= options_.end && std::abs(swing) > notable)) return false;
+    System<Mechanical>& system = *problem_.system_;
+    const Real before = system.bound_change();
+    system.probe();
+    pass_start_ = u;
+    const NewtonReport probed = newton_.resume(system, pass_start_, time, dt);
+    const bool grows = probed.trouble || system.bound_change() >= system.stable_below() * before;
+    system.begin_passes();
+    return grows || system.evaluate(u, time, dt);
+  }
+  return false;
 }
 
 template <class Model>
@@ -203,7 +237,7 @@ void March<Model>::advance() {
       extrapolate = true;
     }
     Trouble trouble = system.impose(time, u);
-    if constexpr (takes_passes<Model>()) system.begin_passes();
+    if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
     NewtonReport newton;
     if (trouble) {
       newton.trouble = trouble;
@@ -238,6 +272,16 @@ void March<Model>::advance() {
     if (!newton.trouble) {
       const ContactSummary contact = system.contact_summary();
       const Real lag = contact.bound > 0 ? contact.lag / contact.bound : 0;
+      if constexpr (has_lag<Model>())
+        if (feeds_back(u, time, dt, contact)) {
+          outcome_ = {.trouble = {Cause::lag_feeds_back, {}},
+                      .step = report_.steps + 1,
+                      .time = problem_.time_,
+                      .tried_step = dt,
+                      .attempts = rejected + 1};
+          ended_ = true;
+          return;
+        }
       control_.accept(time, first_iterations, error, options_.lag_tolerance > 0 ? lag / options_.lag_tolerance : 0);
       system.commit();
       if constexpr (has_inertia<Model>) {

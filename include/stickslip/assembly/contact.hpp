@@ -58,6 +58,7 @@ struct ContactSummary {
   Real max_slip = 0;         ///< largest slid distance of a node so far [length]
   Real bound = 0;       ///< sum of the friction forces that the nodes could bear at their current pressures [force]
   Real lag = 0;         ///< sum of the changes of these that the law has not seen yet [force]
+  Real swing = 0;       ///< the same with its sign, of nodes that touched before the step as well [force]
   Real dissipated = 0;  ///< by friction in the step [energy]
 
   void merge(const ContactSummary& other) {
@@ -67,6 +68,7 @@ struct ContactSummary {
     max_slip = std::max(max_slip, other.max_slip);
     bound += other.bound;
     lag += other.lag;
+    swing += other.swing;
     dissipated += other.dissipated;
   }
 };
@@ -108,6 +110,26 @@ struct ContactNodeState {
   Real slip = 0;                                  ///< slid distance so far [length]; 0 without friction
   bool touching = false;
   bool sliding = false;
+};
+
+/// How far a pass follows what the last one found: Aitken's choice for vectors (Irons & Tuck 1969; theory.md,
+/// eq. 5.30).
+struct Relaxation {
+  Real share = 1;
+
+  void next(const Field& change) {
+    if (before_.size() == change.size()) {
+      const Field difference = change - before_;
+      const Real square = difference.squaredNorm();
+      if (square > 0) share = std::clamp(-share * before_.dot(difference) / square, Real(0.05), Real(2));
+    }
+    before_ = change;
+  }
+  /// Goes a quarter of the last way; false when that is next to nothing.
+  bool hold_back() { return (share *= 0.25) > 1e-3; }
+
+ private:
+  Field before_;
 };
 
 /// A side of the body in contact with one tool, whatever the law: its nodes and what happened to them.
@@ -160,6 +182,10 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   static constexpr bool remembers = !std::is_empty_v<Memory>;
   /// Whether steps take several passes for this pair.
   static constexpr bool passes = is_augmented<Enforcement> || friction_is_iterated<Friction>;
+  /// Whether the bound lags behind the pressure, and can be told what to see.
+  static constexpr bool lags = friction_lags<Friction>;
+  /// Whether passes bring the bound up to date.
+  static constexpr bool iterates = friction_is_iterated<Friction>;
   /// Whether the friction law looks at the area that a node carries.
   static constexpr bool takes_area = [] {
     if constexpr (with_friction)
@@ -190,8 +216,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       committed_.resize(nodes_.size());
       trial_.resize(nodes_.size());
     }
+    if constexpr (passes || lags) renewed_.resize(nodes_.size());
     if constexpr (passes) {
-      renewed_.resize(nodes_.size());
       spacing_ = spacings(mesh, this->side_);
     }
     weigh(mesh, kinematics);
@@ -273,6 +299,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
                    Field* excess, Matrix& matrix, Couplings& couplings) {
     const rigid::Pose<dim> pose = motion_.at(time);
     summary_ = {};
+    if constexpr (lags) dt_ = dt;
     trial_force_.setZero();
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const Index n = nodes_[k];
@@ -326,25 +353,50 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       summary_.max_penetration = std::max(summary_.max_penetration, -at.gap);
       summary_.bound += node.bound;
       summary_.lag += std::abs(node.lag);
+      if (states_[k].touching) summary_.swing += node.lag;
       summary_.dissipated += node.dissipated;
     }
     return {};
   }
 
   /// Begins the passes of a step at the multipliers and the bounds of the converged state.
-  void begin_passes() requires passes { renewed_ = committed_; }
+  void begin_passes() requires(passes || lags) {
+    renewed_ = committed_;
+    if constexpr (iterates) relaxation_ = {};
+  }
   /// Starts the next pass from where the last one ended: its tractions for multipliers, its pressures in the bounds.
   /// Only the places and the slid distances stay those of the converged state.
   void renew() requires passes {
+    if constexpr (iterates) {
+      relaxation_.next(changes());
+      see(relaxation_.share);
+    }
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       Memory& next = renewed_[k];
       if constexpr (is_augmented<Enforcement>) next.enforcement = trial_[k].enforcement;
       if constexpr (with_friction) {
         if constexpr (is_augmented<Enforcement>) next.friction.traction = trial_[k].friction.traction;
-        if constexpr (friction_is_iterated<Friction>) next.friction.pressure = trial_[k].friction.pressure;
       }
     }
   }
+  /// Goes a smaller part of the way of the last `renew`, where that has led to a step without a solution; false when
+  /// there is nothing left of it.
+  bool hold_back() requires iterates {
+    if (!relaxation_.hold_back()) return false;
+    see(relaxation_.share);
+    return true;
+  }
+
+  /// Norm of the differences of the pressures and those that the bounds saw [force].
+  Real bound_change() requires lags { return changes().norm(); }
+  /// How much of the last change of its bound a pressure may answer with, for the lag to settle [-].
+  static constexpr Real stable_below() requires lags { return Friction::Pressure::stable_below; }
+  /// Makes the bounds see the pressures that the last pass found.
+  void probe() requires lags {
+    changes();
+    see(1);
+  }
+
   /// How far the last pass was from what another one would give: the largest gap of a pressed node, and the largest
   /// reversible slide of a sticking one, over the distance of neighbouring nodes; and the lag of the bounds.
   Real unsettled() const requires passes {
@@ -359,7 +411,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
             largest = std::max(largest, (trial_[k].friction.traction - renewed_[k].friction.traction).norm() /
                                             (enforcement_.stick_stiffness(weight_[k]) * spacing_[k]));
       }
-    if constexpr (friction_is_iterated<Friction>)
+    if constexpr (iterates)
       if (summary_.bound > 0) largest = std::max(largest, summary_.lag / summary_.bound);
     return largest;
   }
@@ -409,8 +461,27 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     return at;
   }
 
+  // The pressures that the last pass found, less those that its bounds saw.
+  const Field& changes() requires lags {
+    felt_.resize(static_cast<Index>(nodes_.size()));
+    changes_.resize(felt_.size());
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const Real found = trial_states_[k].touching ? pressures_[k].value : 0;
+      felt_[static_cast<Index>(k)] = Friction::Pressure::pressure(found, renewed_[k].friction.pressure, dt_);
+      changes_[static_cast<Index>(k)] = found - felt_[static_cast<Index>(k)];
+    }
+    return changes_;
+  }
+  // Makes the bounds see the pressures a part of the way from those that they saw to those that were found.
+  void see(Real share) requires lags {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const auto i = static_cast<Index>(k);
+      renewed_[k].friction.pressure = Friction::Pressure::seeing(std::max(0.0, felt_[i] + share * changes_[i]));
+    }
+  }
+
   const Memory& start_of_pass(std::size_t k) const requires remembers {
-    if constexpr (passes)
+    if constexpr (passes || lags)
       return renewed_[k];
     else
       return committed_[k];
@@ -444,8 +515,12 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   StiffRelations<dim> pressures_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;
-  [[no_unique_address]] Only<passes, std::vector<Memory>, Friction> renewed_;  // where the present pass starts
+  [[no_unique_address]] Only<passes || lags, std::vector<Memory>, Friction> renewed_;  // where the present pass starts
   [[no_unique_address]] Only<passes, std::vector<Real>, Enforcement> spacing_;
+  [[no_unique_address]] Only<iterates, Relaxation, Memory> relaxation_;
+  [[no_unique_address]] Only<lags, Field, Matrix> felt_;  // pressures that the bounds of the last pass saw
+  [[no_unique_address]] Only<lags, Field, struct ChangesTag> changes_;  // and what it found, less these
+  [[no_unique_address]] Only<lags, Real, struct StepTag> dt_{};         // of the last assembly
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dim))>> slots_;
   using NodeEquations = std::vector<std::array<Index, static_cast<std::size_t>(dim)>>;
   [[no_unique_address]] Only<keeps_couplings<Model>, NodeEquations, Tool> equations_;

@@ -55,6 +55,7 @@ class System {
   static constexpr int dim = Model::Kinematics::dim;
   static constexpr bool with_contact = has_contact<Model>;
   static constexpr bool with_passes = takes_passes<Model>();
+  static constexpr bool with_lag = has_lag<Model>();
   using Pairs = Only<with_contact, ContactPairs<Model>, Matrix>;
 
   static constexpr bool with_inertia = has_inertia<Model>;
@@ -169,8 +170,35 @@ class System {
   }
 
   /// Begins the passes of a step at the converged state's multipliers and bounds.
-  void begin_passes() requires with_passes {
-    for_each_pass([](auto& pair) { pair.begin_passes(); });
+  void begin_passes() requires(with_passes || with_lag) {
+    for_each_contact(pairs_, [](auto& pair) {
+      using Pair = std::remove_reference_t<decltype(pair)>;
+      if constexpr (Pair::passes || Pair::lags) pair.begin_passes();
+    });
+  }
+  /// Goes a smaller part of the way of the last `renew`; false when there is nothing left of it, or no bound to renew.
+  bool hold_back() requires with_passes {
+    bool held = false;
+    for_each_contact(pairs_, [&](auto& pair) {
+      if constexpr (std::remove_reference_t<decltype(pair)>::iterates) held = pair.hold_back() || held;
+    });
+    return held;
+  }
+  /// Norm of the differences of the pressures and those that lagging bounds saw [force].
+  Real bound_change() requires with_lag {
+    Real square = 0;
+    for_each_lag([&](auto& pair) { square += std::pow(pair.bound_change(), 2); });
+    return std::sqrt(square);
+  }
+  /// The least feedback at which the lag of a pair no longer settles [-].
+  Real stable_below() requires with_lag {
+    Real least = std::numeric_limits<Real>::infinity();
+    for_each_lag([&](auto& pair) { least = std::min(least, pair.stable_below()); });
+    return least;
+  }
+  /// Makes lagging bounds see the pressures of the last evaluation; `begin_passes` takes that back.
+  void probe() requires with_lag {
+    for_each_lag([](auto& pair) { pair.probe(); });
   }
   /// Starts the next pass from where the last one ended.
   void renew() requires with_passes {
@@ -271,6 +299,13 @@ class System {
   void for_each_pass(Visit&& visit) {
     for_each_contact(pairs_, [&](auto& pair) {
       if constexpr (std::remove_reference_t<decltype(pair)>::passes) visit(pair);
+    });
+  }
+
+  template <class Visit>
+  void for_each_lag(Visit&& visit) {
+    for_each_contact(pairs_, [&](auto& pair) {
+      if constexpr (std::remove_reference_t<decltype(pair)>::lags) visit(pair);
     });
   }
 

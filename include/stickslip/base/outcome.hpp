@@ -17,6 +17,7 @@ enum class Cause {
   singular_matrix,   ///< the factorisation met a zero pivot: a rigid-body mode or a limit point
   not_converged,     ///< the iteration limit was reached
   passes_failed,     ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
+  lag_feeds_back,    ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
   stalled,           ///< no step along the Newton direction lowers the residual
 };
 
@@ -39,6 +40,9 @@ inline const char* describe(Cause cause) {
       return "the Newton iteration did not converge within its limit";
     case Cause::passes_failed:
       return "the passes over the step did not settle";
+    case Cause::lag_feeds_back:
+      return "the friction bound's lag feeds back on the pressure and grows from step to step, whatever their size; take "
+             "the current pressure";
     case Cause::stalled:
       return "the Newton iteration stalled";
   }

@@ -21,8 +21,8 @@ struct CurrentPressure {
   }
 };
 
-/// The normal force of the iterate in the residual, the tangent's share of it symmetrised: the exact answer by symmetric
-/// systems, at more iterations (theory.md, section 5.9).
+/// The normal force of the iterate in the residual, the tangent's share of it symmetrised: the exact answer by
+/// symmetric systems, at more iterations (theory.md, section 5.9).
 struct Symmetrised : CurrentPressure {
   static constexpr bool symmetrised = true;
 };
@@ -32,6 +32,7 @@ struct Symmetrised : CurrentPressure {
 struct LastConverged {
   using Role = role::PressureSource;
   static constexpr bool follows_current = false;
+  static constexpr Real stable_below = 1;  ///< kappa of theory.md, eq. 5.14
   template <class S>
   struct Memory {
     S pressure = S(0);  ///< [force]
@@ -44,6 +45,10 @@ struct LastConverged {
   static Memory<S> advance(const S& current, const Memory<S>&, Real) {
     return {current};
   }
+  template <class S>
+  static Memory<S> seeing(const S& pressure) {
+    return {pressure};
+  }
 };
 
 /// The normal force that the last two converged steps foretell, linear in time and between zero and twice the last one
@@ -52,6 +57,7 @@ struct LastConverged {
 struct Extrapolated {
   using Role = role::PressureSource;
   static constexpr bool follows_current = false;
+  static constexpr Real stable_below = 1.0 / 3;  ///< kappa of theory.md, eq. 5.15
   template <class S>
   struct Memory {
     S pressure = S(0);  ///< [force]
@@ -66,6 +72,10 @@ struct Extrapolated {
   static Memory<S> advance(const S& current, const Memory<S>& memory, Real dt) {
     const bool known = value_of(memory.pressure) > 0 && dt > 0;
     return {current, known ? S((current - memory.pressure) / dt) : S(0)};
+  }
+  template <class S>
+  static Memory<S> seeing(const S& pressure) {
+    return {pressure, S(0)};
   }
 };
 

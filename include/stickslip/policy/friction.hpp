@@ -62,6 +62,16 @@ constexpr bool is_iterated() {
     return false;
 }
 
+/// Whether a source's pressure lags behind, and can be told which one to take: `seeing(pressure)` is the memory with
+/// which the bound sees just that, `stable_below` the feedback up to which the lag settles. Passes over a step need it,
+/// and the probe whether friction feeds back on its own bound.
+template <class Source>
+inline constexpr bool can_see = requires(const Real& pressure) {
+  requires !Source::follows_current;
+  { Source::stable_below } -> std::convertible_to<Real>;
+  { Source::seeing(pressure) } -> std::same_as<typename Source::template Memory<Real>>;
+};
+
 /// Whether a source that follows the current pressure has its part of the tangent symmetrised.
 template <class Source>
 constexpr bool is_symmetrised() {
@@ -145,6 +155,14 @@ struct Frictions {
                                              return false;
                                          }()) ||
                                         ...);
+  static constexpr bool any_lagging = ((F::active &&
+                                        [] {
+                                          if constexpr (F::active)
+                                            return F::Law::depends_on_pressure && can_see<typename F::Pressure>;
+                                          else
+                                            return false;
+                                        }()) ||
+                                       ...);
   static constexpr bool any_anisotropic = (is_anisotropic<typename F::Law> || ...);
 };
 template <class F>
@@ -165,6 +183,9 @@ constexpr Symmetry friction_symmetry() {
 /// Whether a bound is brought up to date by passes over a step.
 template <class F>
 inline constexpr bool friction_is_iterated = detail::FrictionsOf<F>::type::any_iterated;
+/// Whether a bound lags behind the pressure and can be asked what another pressure would do.
+template <class F>
+inline constexpr bool friction_lags = detail::FrictionsOf<F>::type::any_lagging;
 /// Whether a bound depends on the direction.
 template <class F>
 inline constexpr bool friction_is_anisotropic = detail::FrictionsOf<F>::type::any_anisotropic;

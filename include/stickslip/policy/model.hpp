@@ -30,6 +30,17 @@ constexpr bool takes_passes() {
     return is_augmented<typename Model::Enforcement> || friction_is_iterated<typename Model::Friction>;
 }
 
+/// True when a bound lags behind the pressure and can be probed.
+template <class Model>
+constexpr bool has_lag() {
+  if constexpr (!has_contact<Model>)
+    return false;
+  else if constexpr (!Model::Friction::active)
+    return false;
+  else
+    return friction_lags<typename Model::Friction>;
+}
+
 /// True when the bundle has inertia.
 template <class Model>
 inline constexpr bool has_inertia = Model::Inertia::active;

@@ -25,6 +25,7 @@ struct MarchOptions {
   Real pass_tolerance = 1e-4;   ///< of passes over a step, where the bundle takes them: see Problem
   Index max_passes = 30;        ///< over a step
   bool line_search = true;
+  bool watch_lag = true;  ///< probe lagging bounds that swing, and at the end, and give up where they feed back
   std::vector<Real> stops{};  ///< times that a step must end at
 
   void validate(Real now) const {
