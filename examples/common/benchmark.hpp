@@ -10,10 +10,6 @@
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
 #include <stickslip/io/vtu.hpp>
-#include <stickslip/linear_solver/banded.hpp>
-#include <stickslip/linear_solver/cholmod.hpp>
-#include <stickslip/linear_solver/eigen_direct.hpp>
-#include <stickslip/linear_solver/umfpack.hpp>
 #include <stickslip/problem.hpp>
 #include <stickslip/verify/energy.hpp>
 
@@ -24,13 +20,26 @@
 
 namespace examples {
 
-/// The paper's friction laws and all solvers, under their command-line names.
-inline constexpr Choices coulomb_laws{Named<stickslip::Coulomb>{"coulomb"},
-                                      Named<stickslip::QuasiCoulomb>{"quasi-coulomb"},
-                                      Named<stickslip::Frictionless>{"frictionless"}};
-inline constexpr Choices all_solvers{Named<stickslip::Banded>{"banded"}, Named<stickslip::EigenLdlt>{"eigen-ldlt"},
-                                     Named<stickslip::EigenLu>{"eigen-lu"}, Named<stickslip::Cholmod>{"cholmod"},
-                                     Named<stickslip::Umfpack>{"umfpack"}};
+/// The paper's friction laws and its cures, under their command-line names.
+inline constexpr Choices coulomb_laws{
+    Named<stickslip::Coulomb>{"coulomb"},
+    Named<stickslip::QuasiCoulomb>{"quasi-coulomb"},
+    Named<stickslip::ExtrapolatedCoulomb>{"extrapolated-quasi-coulomb"},
+    Named<stickslip::WithPressure<stickslip::Coulomb, stickslip::LagIterated>>{"lag-iterated-coulomb"},
+    Named<stickslip::WithPressure<stickslip::Coulomb, stickslip::Symmetrised>>{"symmetrised-coulomb"},
+    Named<stickslip::Frictionless>{"frictionless"}};
+/// All solvers.
+inline constexpr Choices all_solvers{Named<ChosenEither>{"banded"},
+                                     Named<ChosenLower>{"eigen-ldlt"},
+                                     Named<ChosenFull>{"eigen-lu"},
+                                     Named<ChosenLower>{"cholmod"},
+                                     Named<ChosenFull>{"umfpack"},
+                                     Named<ChosenEither>{"mumps"},
+                                     Named<ChosenLower>{"conjugate-gradients"},
+                                     Named<ChosenFull>{"bicgstab"},
+                                     Named<ChosenCorrected>{"corrected-banded"},
+                                     Named<ChosenCorrected>{"corrected-cholmod"},
+                                     Named<ChosenCorrected>{"corrected-eigen-ldlt"}};
 
 /// What is particular to a benchmark.
 template <class Model>

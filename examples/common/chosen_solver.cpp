@@ -3,6 +3,7 @@
 
 #include <stickslip/linear_solver/banded.hpp>
 #include <stickslip/linear_solver/cholmod.hpp>
+#include <stickslip/linear_solver/corrected.hpp>
 #include <stickslip/linear_solver/eigen_direct.hpp>
 #include <stickslip/linear_solver/eigen_iterative.hpp>
 #include <stickslip/linear_solver/mumps.hpp>
@@ -54,6 +55,9 @@ std::unique_ptr<AnySolver> make_solver(const std::string& name, Symmetry storage
   if (name == "bicgstab") solver = make<Bicgstab>(storage);
   if (name == "mumps") solver = make_of<Mumps>(storage);
   if (name == "banded") solver = make_of<Banded>(storage);
+  if (name == "corrected-banded") solver = make<Corrected<BandedCholesky>>(storage);
+  if (name == "corrected-cholmod") solver = make<Corrected<Cholmod>>(storage);
+  if (name == "corrected-eigen-ldlt") solver = make<Corrected<EigenLdlt>>(storage);
   if (!solver) throw std::invalid_argument("no solver \"" + name + "\" for matrices of this storage");
   return solver;
 }

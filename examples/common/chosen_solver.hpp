@@ -39,10 +39,15 @@ class ChosenSolver {
   std::unique_ptr<AnySolver> solver_ = make_solver(chosen_solver, storage_);
 };
 
-/// For solvers that keep the lower triangle of a symmetric matrix, for those that keep the whole matrix, and for those
-/// that have one for each.
+/// For solvers that keep the lower triangle of a symmetric matrix, and for those that keep the whole matrix.
 using ChosenLower = ChosenSolver<stickslip::Symmetry::symmetric>;
 using ChosenFull = ChosenSolver<stickslip::Symmetry::general>;
+/// For those that correct the factor of a symmetric matrix, and so take general systems.
+struct ChosenCorrected : ChosenLower {
+  static constexpr stickslip::Symmetry accepts = stickslip::Symmetry::general;
+  static constexpr bool corrects = true;
+};
+/// For those that have one for each.
 struct ChosenEither {
   using Role = stickslip::role::LinearSolver;
   template <stickslip::Symmetry system>

@@ -2,8 +2,11 @@
 // From names on the command line to bundles put together at compile time.
 #pragma once
 
+#include "chosen_solver.hpp"
 #include "options.hpp"
 
+#include <stickslip/friction/coulomb.hpp>
+#include <stickslip/friction/frictionless.hpp>
 #include <stickslip/policy/model.hpp>
 
 #include <iostream>
@@ -43,6 +46,22 @@ struct With : Base {
   using LinearSolver = Solver_;
 };
 
+/// The bundles that programs offer: every valid one, but a solver that corrects only what there is to correct, and full
+/// matrices for symmetric systems only under the paper's laws, where they are to be compared.
+template <class Model>
+constexpr bool is_offered() {
+  using namespace stickslip;
+  if constexpr (!valid_model<Model>) {
+    return false;
+  } else {
+    constexpr bool symmetric = system_symmetry<Model> == Symmetry::symmetric;
+    constexpr bool full = matrix_storage<Model> == Symmetry::general;
+    using F = typename Model::Friction;
+    constexpr bool paper = std::is_same_v<F, QuasiCoulomb> || std::is_same_v<F, Frictionless>;
+    return !(symmetric && takes_corrections<SolverOf<Model>>)&&!(symmetric && full && !paper);
+  }
+}
+
 /// The solvers that take the system of the options' friction law.
 template <class Base, class Frictions, class Solvers>
 std::vector<std::string> able(const Options& options, const Frictions& frictions, const Solvers& solvers) {
@@ -50,7 +69,7 @@ std::vector<std::string> able(const Options& options, const Frictions& frictions
   frictions.for_each([&]<class F>(Named<F> friction) {
     if (options.friction != friction.name) return;
     solvers.for_each([&]<class S>(Named<S> solver) {
-      if constexpr (stickslip::valid_model<With<Base, F, S>>) found.emplace_back(solver.name);
+      if constexpr (is_offered<With<Base, F, S>>()) found.emplace_back(solver.name);
     });
   });
   return found;
@@ -60,11 +79,12 @@ std::vector<std::string> able(const Options& options, const Frictions& frictions
 template <class Base, class Frictions, class Solvers, class Run>
 int dispatch(const Options& options, const Frictions& frictions, const Solvers& solvers, Run&& run) {
   int code = -1;
+  chosen_solver = options.solver;
   frictions.for_each([&]<class F>(Named<F> friction) {
     if (options.friction != friction.name) return;
     solvers.for_each([&]<class S>(Named<S> solver) {
       using Model = With<Base, F, S>;
-      if constexpr (stickslip::valid_model<Model>)
+      if constexpr (is_offered<Model>())
         if (options.solver == solver.name) code = run.template operator()<Model>();
     });
   });
@@ -81,7 +101,7 @@ int print_list(const Frictions& frictions, const Solvers& solvers) {
   frictions.for_each([&]<class F>(Named<F> friction) {
     std::cout << friction.name << ":";
     solvers.for_each([&]<class S>(Named<S> solver) {
-      if constexpr (stickslip::valid_model<With<Base, F, S>>) std::cout << ' ' << solver.name;
+      if constexpr (is_offered<With<Base, F, S>>()) std::cout << ' ' << solver.name;
     });
     std::cout << '\n';
   });

@@ -29,9 +29,10 @@ struct FullyIntegrated {
 
   /// Nodal forces and tangent of one element (theory.md, eq. 2.4 and 2.5) for nodal displacements u.
   template <class Kinematics, class G, class Material, class State, class S>
-  static Cause evaluate(const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry,
-                        const Material& material, const Vec<S, nodes * dim>& u, const std::array<State, points>& old,
-                        Real dt, ElementResult<S, nodes * dim, points, State>& out) {
+  [[gnu::noinline]] static Cause evaluate(const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry,
+                                          const Material& material, const Vec<S, nodes * dim>& u,
+                                          const std::array<State, points>& old, Real dt,
+                                          ElementResult<S, nodes * dim, points, State>& out) {
     using Shape = typename Kinematics::Shape;
     out.residual.setZero();
     out.tangent.setZero();

@@ -42,9 +42,11 @@ struct MeanDilatation {
   /// Nodal forces and tangent of one element for nodal displacements u. With `dilatation`, ln theta is its value and
   /// not that of the displacements (theory.md, eq. 6.7, 6.8).
   template <class Kinematics, class G, class Material, class State, class S>
-  static Cause evaluate(const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry,
-                        const Material& material, const Vec<S, dofs>& u, const std::array<State, points>& old, Real dt,
-                        ElementResult<S, dofs, points, State>& out, StiffRelation<S, dofs>* dilatation = nullptr) {
+  [[gnu::noinline]] static Cause evaluate(const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry,
+                                          const Material& material, const Vec<S, dofs>& u,
+                                          const std::array<State, points>& old, Real dt,
+                                          ElementResult<S, dofs, points, State>& out,
+                                          StiffRelation<S, dofs>* dilatation = nullptr) {
     using std::exp, std::log, std::pow;
     using Shape = typename Kinematics::Shape;
     constexpr Symmetry symmetry = Material::symmetry;
