@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "bundle.hpp"
+
+struct Bundle : Sound {
+#ifdef CONTROL
+  using Friction = PerContact<QuasiCoulomb, Frictionless>;
+#else
+  using Friction = PerContact<QuasiCoulomb, Coulomb>;
+#endif
+  using LinearSolver = DeclaredSolver<Symmetry::symmetric>;
+};
+
+static_assert(CheckModel<Bundle>::ok);
