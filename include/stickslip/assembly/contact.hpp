@@ -280,6 +280,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       states_[k].gap = at.gap;
       if constexpr (with_friction) committed_[k].friction.place = at.place;
     }
+    if constexpr (passes) begin_passes();
     return {};
   }
 
