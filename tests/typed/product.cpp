@@ -1,64 +1,101 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scene.hpp"
+// The product of all choices: what the contracts admit of it, and what of that runs.
+#include "cover.hpp"
+#include "judge.hpp"
 
 #include <doctest/doctest.h>
 
+#include <set>
+#include <string>
+
 namespace typed {
 
-using Product = mp_product<Bundle, AllKinematics, Elements, Materials, Frictions, Solvers>;
-using Valid = mp_copy_if<Product, IsValid>;
+constexpr std::size_t solvers_in_cover = mumps_ldlt;  // those before it
 
-template <class Model>
-using IsCoulomb = std::is_same<typename Model::Friction, Coulomb>;
-
-TEST_CASE("the product of all choices, and how much of it the rules admit") {
-  static_assert(mp_size<Product>::value == 2 * 2 * 5 * 3 * 6);
-  // Out of the 6 solvers, Coulomb's law with the current pressure bears 3, and so does the hypoelastic material with
-  // any law; the rest bears all.
-  static_assert(mp_size<Valid>::value == 2 * 2 * (4 * (2 * 6 + 3) + 3 * 3));
-  static_assert(mp_size<mp_copy_if<Valid, IsCoulomb>>::value == 2 * 2 * 5 * 3);
-  MESSAGE(mp_size<Product>::value << " bundles, " << mp_size<Valid>::value << " valid");
+// Law and hardening of a material count as two choices.
+using Choices = std::array<std::size_t, axes + 1>;
+constexpr std::size_t hardenings = 4;
+constexpr Choices split(const std::array<std::size_t, axes>& n) {
+  const std::size_t material = n[2];
+  const bool hard = material >= j2_perfect;
+  return {n[0],
+          n[1],
+          hard ? 2 + (material - j2_perfect) / hardenings : material,
+          hard ? 1 + (material - j2_perfect) % hardenings : 0,
+          n[3],
+          n[4],
+          n[5],
+          n[6],
+          n[7]};
+}
+// Marks all pairs of a model's choices.
+using Pairs = std::set<std::array<std::size_t, 4>>;
+void mark(const Choices& c, Pairs& pairs) {
+  for (std::size_t a = 0; a < c.size(); ++a)
+    for (std::size_t b = a + 1; b < c.size(); ++b) pairs.insert({a, c[a], b, c[b]});
 }
 
-using Rubbing = mp_product<WithPressure, Bounds, Sources>;
-template <class Friction>
-using IsGeneral = std::bool_constant<friction_symmetry<Friction>() == Symmetry::general>;
-
-TEST_CASE("any bound takes any pressure source, and the two decide on the solvers together") {
-  using All =
-      mp_product<Bundle, mp_list<PlaneStrain>, mp_list<MeanDilatation<Quad4>>, mp_list<Hencky>, Rubbing, Solvers>;
-  using Admitted = mp_copy_if<All, IsValid>;
-  static_assert(mp_size<Rubbing>::value == 5 * 3);
-  // Of the bounds only Tresca's is symmetric at the current pressure.
-  constexpr std::size_t general = mp_size<mp_copy_if<Rubbing, IsGeneral>>::value;
-  static_assert(general == 4);
-  static_assert(mp_size<Admitted>::value == general * 3 + (15 - general) * 6);
-  MESSAGE(mp_size<Rubbing>::value << " friction policies, " << mp_size<Admitted>::value << " with a solver");
-}
-
-void check(const Answer& answer, bool hoop, bool friction, bool plastic) {
-  REQUIRE_MESSAGE(answer.outcome, answer.outcome.message());
-  CHECK(answer.steps == 3);
-  CHECK(answer.rejected == 0);
-  const Real scale = answer.force.norm();
-  CHECK(answer.force[1] > 1);
-  CHECK(std::abs(answer.reaction[1] - answer.force[1]) < 1e-9 * scale);
-  // In axisymmetry the hoop stress bears radial force as well.
-  if (!hoop) CHECK(std::abs(answer.reaction[0] - answer.force[0]) < 1e-9 * scale);
-  if (friction) {
-    CHECK(-answer.force[0] > 0.01 * scale);  // the body holds the tool back
-    CHECK(answer.sliding > 0);
-  } else {
-    CHECK(std::abs(answer.force[0]) < 1e-12 * scale);
+/// Calls visit(numbers, valid) for every model of the product.
+template <class Visit>
+void for_each_model(const std::vector<Judgement>& judgements, Visit&& visit) {
+  for (const Judgement& judgement : judgements) {
+    std::size_t k = 0;
+    std::array<std::size_t, axes> n{};
+    n[7] = judgement.solver;
+    const auto walk = [&](const auto& self, std::size_t axis) -> void {
+      if (axis == 7) return visit(n, judgement.valid[k++]);
+      for (n[axis] = 0; n[axis] < choices[axis]; ++n[axis]) self(self, axis + 1);
+    };
+    walk(walk, 0);
+    REQUIRE(k == judgement.valid.size());
   }
-  CHECK((answer.plastic_strain > 1e-3) == plastic);
 }
 
-void check_equal(const Answer& a, const Answer& b) {
-  CHECK((a.u - b.u).norm() < 1e-9 * a.u.norm());
-  CHECK((a.force - b.force).norm() < 1e-9 * a.force.norm());
-  CHECK(a.iterations == b.iterations);
-  CHECK(a.sliding == b.sliding);
+std::vector<Judgement> judge_all() {
+  std::vector<Judgement> all;
+  for (auto judge : {judge_eigen, judge_suitesparse, judge_banded, judge_mumps, judge_iterative})
+    for (Judgement& one : judge()) all.push_back(std::move(one));
+  return all;
+}
+
+TEST_CASE("the product of all choices, what the contracts admit of it, and the covering set") {
+  const std::vector<Judgement> judgements = judge_all();
+  REQUIRE(judgements.size() == solvers);
+  std::set<std::array<std::size_t, axes>> valid;
+  Pairs needed, covered;
+  std::size_t product = 0, triangles = 0;
+  for_each_model(judgements, [&](const std::array<std::size_t, axes>& n, bool ok) {
+    ++product;
+    if (!ok) return;
+    valid.insert(n);
+    if (n[7] < solvers_in_cover) mark(split(n), needed);
+    const bool symmetric_solver = n[7] % 2 == 0;
+    triangles += symmetric_solver ? 1 : 0;
+  });
+  CHECK(product == 3 * 2 * 10 * 8 * 4 * 3 * 2 * 10);
+  // Friction and enforcement together: of the symmetric ones, without friction 1 with contact and 1 without, 5
+  // isotropic bounds that look at the pressure from 3 sources, Tresca's from all 4; general ones are the 5 with the
+  // current pressure. The anisotropic bound adds 3 and 1 in space.
+  constexpr std::size_t enforcements = 2, plane_symmetric = 1 + enforcements * (1 + 5 * 3 + 4),
+                        plane_general = enforcements * 5, space_symmetric = plane_symmetric + enforcements * 3,
+                        space_general = plane_general + enforcements * 1;
+  constexpr std::size_t symmetric = 2 * plane_symmetric + space_symmetric, general = 2 * plane_general + space_general;
+  // Six of the ten materials are symmetric. A symmetric system takes any of the ten solvers, a general one half of
+  // them.
+  CHECK(valid.size() == 2 * 2 * (6 * (symmetric * 10 + general * 5) + 4 * (symmetric + general) * 5));
+  CHECK(triangles == 2 * 2 * 6 * symmetric * 5);
+
+  for (const Row& row : cover) {
+    const auto n = row.numbers();
+    CHECK(valid.count(n) == 1);
+    mark(split(n), covered);
+  }
+  for (const auto& [a, x, b, y] : needed) {
+    INFO("choice " << x << " of axis " << a << " with choice " << y << " of axis " << b << ": no model runs");
+    CHECK(covered.count({a, x, b, y}) == 1);
+  }
+  MESSAGE(product << " models in the product, " << valid.size() << " valid; " << needed.size()
+                  << " pairs of choices, all in the " << cover.size() << " models that run");
 }
 
 }  // namespace typed

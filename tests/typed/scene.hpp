@@ -1,98 +1,186 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "product.hpp"
+#include "cover.hpp"
+#include "sizes.hpp"
+
+#include <stickslip/problem.hpp>
+
+#include <string>
+#include <vector>
 
 namespace typed {
 
+/// What the bundle says of itself.
+struct Facts {
+  int dim;
+  bool hoop, contact, friction, wall, augmented, follows, passes, plastic, inertia;
+  Symmetry material, system, storage;
+};
+/// One step of a run; vectors of the plane have a third component of zero.
+struct Step {
+  StepReport report;
+  Vec<Real, 3> rubbing, wall;  // forces of the body on the tools
+  Vec<Real, 3> supports;       // of the supports on the body
+  Vec<Real, 3> momentum;       // rate of change
+};
 struct Answer {
   Outcome outcome;
+  std::vector<Step> steps;
+  Index rejected = 0;
   Field u;
-  Vec<Real, 2> force;     // of the body on the tool
-  Vec<Real, 2> reaction;  // of the supports on the body
-  Index steps = 0, iterations = 0, rejected = 0, sliding = 0;
+  Real alpha_f = 0;
+  Real asymmetry = 0;  // largest of the steps' matrices, over the largest entry; of a triangle 0
   Real plastic_strain = 0;
 };
 
-// What holds for every bundle, and for two bundles that differ in the solver alone. Not templates: they compile once.
-void check(const Answer& answer, bool hoop, bool friction, bool plastic);
-void check_equal(const Answer& a, const Answer& b);
-
+// What needs no template, compiled once.
+Mesh<2, 4> block(std::integral_constant<int, 2>);
+Mesh<3, 8> block(std::integral_constant<int, 3>);
+rigid::Tool<2> flat(std::integral_constant<int, 2>);
+rigid::Tool<3> flat(std::integral_constant<int, 3>);
+rigid::Tool<2> wall(std::integral_constant<int, 2>);
+rigid::Tool<3> wall(std::integral_constant<int, 3>);
+rigid::Motion<2> press_and_drag(std::integral_constant<int, 2>);
+rigid::Motion<3> press_and_drag(std::integral_constant<int, 3>);
+/// The same motion of a side, by component.
+std::function<Real(Real)> component(Index i);
+void give(Hencky& m);
+void give(NeoHookean& m);
+void give(PerfectPlasticity& h);
+void give(LinearHardening& h);
+void give(SwiftHardening& h);
+void give(VoceHardening& h);
+void give(Coulomb& f);
+void give(CappedCoulomb& f);
+void give(Tresca& f);
+void give(SlipWeakeningCoulomb& f);
+void give(Stribeck& f);
+void give(AnisotropicCoulomb& f);
+void give(Penalty& e);
+void give(AugmentedLagrangian& e);
 template <class Material>
 constexpr bool is_plastic = requires(Material m) {
   m.hardening;
 };
-
-template <class Material>
-Material parameters() {
-  if constexpr (!is_plastic<Material>)
-    return {.young = 1000, .poisson = 0.3};
-  else if constexpr (requires(Material m) { m.hardening.modulus; })
-    return {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 20}};
-  else
-    return {.young = 1000, .poisson = 0.3, .hardening = {.strength = 12, .offset = 1e-2, .exponent = 0.2}};
+template <class J2>
+  requires is_plastic<J2>
+void give(J2& m) {
+  m.young = 1000;
+  m.poisson = 0.3;
+  give(m.hardening);
 }
 
-/// Presses a flat tool on a block of 2 x 2 elements in one step and drags it along in two more; checks the
-/// answer.
+Vec<Real, 3> in_space(const Vec<Real, 2>& v);
+Vec<Real, 3> in_space(const Vec<Real, 3>& v);
+/// Sum over the nodes.
+Vec<Real, 3> total(const Field& field, int dim);
+Field between(const Field& from, const Field& to, Real weight);
+Real asymmetry(const SparseView& matrix);
+/// What holds for every model, and for two that differ in the solver alone.
+void check(const Row& row, const Facts& facts, const Answer& answer);
+
+template <class Model, class Friction>
+Contact<Model, Friction> rubbing() {
+  constexpr std::integral_constant<int, Model::Kinematics::dim> dim{};
+  Contact<Model, Friction> contact{.side = "top", .tool = flat(dim), .motion = press_and_drag(dim), .name = "rubbing"};
+  give(contact.enforcement);
+  if constexpr (Friction::active) give(contact.friction);
+  return contact;
+}
+template <class Model>
+void add_contacts(std::vector<Contact<Model>>& contacts) {
+  contacts.push_back(rubbing<Model, typename Model::Friction>());
+}
+template <class Model, class First, class Second>
+void add_contacts(std::tuple<std::vector<Contact<Model, First>>, std::vector<Contact<Model, Second>>>& contacts) {
+  std::get<0>(contacts).push_back(rubbing<Model, First>());
+  Contact<Model, Second> aside{
+      .side = "right", .tool = wall(std::integral_constant<int, Model::Kinematics::dim>{}), .name = "wall"};
+  give(aside.enforcement);
+  std::get<1>(contacts).push_back(std::move(aside));
+}
+
+/// Presses a flat tool on a block in one step and drags it along in two more; without tools the block's top does so.
 template <class Model>
 Answer press_and_drag() {
-  Contact<Model> contact{
-      .side = "top",
-      .tool = rigid::line({0, 1}, {-1, 0}),
-      .motion = [](Real t) { return Vec<Real, 2>(0.02 * std::max(0.0, t - 1), -0.03 * std::min(t, 1.0)); },
-      .enforcement = {.normal = 2e3, .tangential = 1e3, .per = PenaltyPer::area},
-      .name = "tool"};
-  if constexpr (has_friction<Model>) contact.friction = {.mu = 0.15};
-  Problem<Model> problem{{.body = mesh::rectangle({.origin = {1, 0}, .cells = {2, 2}}),
-                          .material = parameters<typename Model::Material>(),
-                          .contacts = {contact}}};
-  problem.hold("bottom", 0).hold("bottom", 1);
-  auto march = problem.march({.end = 3, .steps = 3, .tolerance = 1e-11});
+  constexpr int dim = Model::Kinematics::dim;
+  constexpr bool with_wall = requires {
+    Model::Friction::per_contact;
+  };
+  typename Problem<Model>::Parameters parameters{.body = block(std::integral_constant<int, dim>{})};
+  give(parameters.material);
+  if constexpr (has_inertia<Model>) parameters.inertia.density = 20;
+  if constexpr (has_contact<Model>) add_contacts(parameters.contacts);
+  Problem<Model> problem(std::move(parameters));
+  for (Index i = 0; i < dim; ++i) {
+    problem.hold("bottom", i);
+    if constexpr (!has_contact<Model>) problem.drive("top", i, component(i));
+  }
   Answer answer;
-  for (const StepReport& step : march) answer.sliding += step.contact.sliding;
+  auto march = problem.march({.end = 3, .steps = 3, .tolerance = 1e-11});
+  Field acceleration;
+  if constexpr (has_inertia<Model>) {
+    acceleration = problem.inertia().acceleration();
+    answer.alpha_f = problem.inertia().scheme().alpha_f;
+  }
+  for (const StepReport& report : march) {
+    Step& step = answer.steps.emplace_back();
+    step.report = report;
+    step.rubbing = step.wall = step.supports = step.momentum = Vec<Real, 3>::Zero();
+    if constexpr (has_contact<Model>) step.rubbing = in_space(problem.contact_force("rubbing"));
+    if constexpr (with_wall) step.wall = in_space(problem.contact_force("wall"));
+    for (Index i = 0; i < dim; ++i)
+      step.supports[i] = problem.reaction("bottom", i) + (has_contact<Model> ? 0 : problem.reaction("top", i));
+    answer.asymmetry = std::max(answer.asymmetry, asymmetry(problem.system().matrix()));
+    if constexpr (has_inertia<Model>) {
+      Field force = Field::Zero(acceleration.size());
+      problem.inertia().add_product(
+          between(acceleration, problem.inertia().acceleration(), 1 - problem.inertia().scheme().alpha_m), force);
+      acceleration = problem.inertia().acceleration();
+      step.momentum = total(force, dim);
+    }
+  }
   answer.outcome = march.outcome();
-  answer.steps = march.report().steps;
-  answer.iterations = march.report().iterations;
   answer.rejected = march.report().rejected_steps;
   answer.u = problem.displacement();
-  answer.force = problem.contact_force("tool");
-  for (int i = 0; i < 2; ++i) answer.reaction[i] = problem.reaction("bottom", i);
   answer.plastic_strain = problem.max_plastic_strain();
-  check(answer, Model::Kinematics::hoop, has_friction<Model>, is_plastic<typename Model::Material>);
   return answer;
 }
 
-/// Runs the bundles of one material. Of the solvers that a kinematics, element and friction admit, all would cost
-/// minutes to compile; two of them run, in turns such that every solver meets every friction law that it can serve, and
-/// a solver of each triangle meets one of full matrices. Returns the number of bundles that ran.
-template <class Material>
-int run_all() {
-  using boost::mp11::mp_at_c;
-  using boost::mp11::mp_for_each;
-  using boost::mp11::mp_identity;
-  using boost::mp11::mp_iota_c;
-  using boost::mp11::mp_transform;
-  using Sections = mp_product<mp_list, AllKinematics, Elements>;
-  int count = 0;
-  mp_for_each<mp_iota_c<mp_size<Sections>::value>>([&](auto section) {
-    using Section = mp_at_c<Sections, section>;
-    using Kinematics = mp_at_c<Section, 0>;
-    using Element = mp_at_c<Section, 1>;
-    mp_for_each<mp_transform<mp_identity, Frictions>>([&](auto friction) {
-      using Friction = typename decltype(friction)::type;
-      using Admitted = mp_copy_if<
-          mp_product<Bundle, mp_list<Kinematics>, mp_list<Element>, mp_list<Material>, mp_list<Friction>, Solvers>,
-          IsValid>;
-      constexpr std::size_t n = mp_size<Admitted>::value;
-      static_assert(n == 3 || n == 6);
-      const Answer a = press_and_drag<mp_at_c<Admitted, section % n>>();
-      const Answer b = press_and_drag<mp_at_c<Admitted, (section + n / 2) % n>>();
-      check_equal(a, b);
-      count += 2;
-    });
-  });
-  return count;
+template <Row row>
+void run() {
+  using Model = ModelOf<row>;
+  static_assert(CheckModel<Model>::ok);
+  check_sizes<Model, row.material, row.bound, row.source, row.enforcement>();
+  check(row,
+        {.dim = Model::Kinematics::dim,
+         .hoop = Model::Kinematics::hoop,
+         .contact = has_contact<Model>,
+         .friction = has_friction<Model>,
+         .wall = row.bound == by_pair,
+         .augmented = is_augmented<typename Model::Enforcement>,
+         .follows = has_friction<Model> && friction_symmetry<typename Model::Friction>() == Symmetry::general,
+         .passes = takes_passes<Model>(),
+         .plastic = is_plastic<typename Model::Material>,
+         .inertia = has_inertia<Model>,
+         .material = Model::Material::symmetry,
+         .system = system_symmetry<Model>,
+         .storage = matrix_storage<Model>},
+        press_and_drag<Model>());
+}
+
+/// Runs the rows of the covering set that `mine` takes; returns their number.
+template <class Mine>
+int run_rows(Mine mine) {
+  return [&]<std::size_t... i>(std::index_sequence<i...>) {
+    const auto one = [&](auto index) {
+      if constexpr (mine(cover[index])) run<cover[index]>();
+      return mine(cover[index]) ? 1 : 0;
+    };
+    return (0 + ... + one(std::integral_constant<std::size_t, i>{}));
+  }
+  (std::make_index_sequence<cover.size()>{});
 }
 
 }  // namespace typed
