@@ -5,9 +5,10 @@
 
 namespace typed {
 
-/// The models that run: every two choices that can stand in one model do so in one of these (product.cpp holds them
-/// against the product and names pairs that are missing). The laws of hardening count as choices of their own. MUMPS
-/// and the iterative solvers run the models of which all other solvers give their answers too.
+/// The models that run. Every two choices that can stand in one model do so in one of these, of the six solvers of
+/// Eigen, SuiteSparse and LAPACK; product.cpp holds them against the product and names pairs that are missing, for
+/// which a row is to be added. The laws of hardening count as choices of their own. MUMPS and the iterative solvers run
+/// but the models that all other solvers run too; their scenes are in tests/physics/solvers*.cpp.
 constexpr auto cover = std::to_array<Row>({
     {plane, mean, j2_voce, coulomb, last, penalty, still, eigen_ldlt},
     {plane, mean, neo_hookean, capped, iterated, penalty, moving, eigen_ldlt},

@@ -10,7 +10,7 @@
 
 namespace typed {
 
-constexpr std::size_t solvers_in_cover = mumps_ldlt;  // those before it
+constexpr std::size_t solvers_in_cover = mumps_ldlt;  // those before it; see cover.hpp
 
 // Law and hardening of a material count as two choices.
 using Choices = std::array<std::size_t, axes + 1>;
