@@ -22,14 +22,15 @@ using namespace stickslip;
 
 // Instantiated once each, in the units of the folder sheet_stamping.
 extern template int stamp<Stamping<Coulomb, examples::ChosenFull>>(const examples::Options&);
+extern template int stamp<Stamping<Coulomb, examples::ChosenCorrected>>(const examples::Options&);
 extern template int stamp<Stamping<QuasiCoulomb, examples::ChosenLower>>(const examples::Options&);
 extern template int stamp<Stamping<QuasiCoulomb, examples::ChosenFull>>(const examples::Options&);
 extern template int stamp<Stamping<Frictionless, examples::ChosenLower>>(const examples::Options&);
 extern template int stamp<Stamping<Frictionless, examples::ChosenFull>>(const examples::Options&);
 
 int main(int argc, char** argv) {
-  using examples::ChosenEither, examples::ChosenFull, examples::ChosenLower, examples::Named;
-  constexpr auto frictions = examples::coulomb_laws;
+  using examples::ChosenCorrected, examples::ChosenEither, examples::ChosenFull, examples::ChosenLower, examples::Named;
+  constexpr auto frictions = examples::paper_laws;
   constexpr examples::Choices solvers{Named<ChosenEither>{"mumps"},
                                       Named<ChosenLower>{"cholmod"},
                                       Named<ChosenFull>{"umfpack"},
@@ -37,7 +38,10 @@ int main(int argc, char** argv) {
                                       Named<ChosenLower>{"eigen-ldlt"},
                                       Named<ChosenFull>{"eigen-lu"},
                                       Named<ChosenLower>{"conjugate-gradients"},
-                                      Named<ChosenFull>{"bicgstab"}};
+                                      Named<ChosenFull>{"bicgstab"},
+                                      Named<ChosenCorrected>{"corrected-cholmod"},
+                                      Named<ChosenCorrected>{"corrected-banded"},
+                                      Named<ChosenCorrected>{"corrected-eigen-ldlt"}};
   const examples::Program program{
       .name = "sheet_stamping",
       .title = "a quarter of a clamped sheet stretched over a hemispherical punch, in three dimensions",
@@ -58,7 +62,6 @@ int main(int argc, char** argv) {
     if (options->list) return examples::print_list<Any>(frictions, solvers);
     const auto run = [&](const examples::Options& o) {
       return examples::dispatch<Any>(o, frictions, solvers, [&]<class Model>() {
-        examples::chosen_solver = o.solver;
         return stamp<Stamping<typename Model::Friction, SolverOf<Model>>>(o);
       });
     };

@@ -20,14 +20,18 @@
 
 namespace examples {
 
-/// The paper's friction laws and its cures, under their command-line names.
+/// The paper's friction laws, under their command-line names.
+inline constexpr Choices paper_laws{Named<stickslip::Coulomb>{"coulomb"},
+                                    Named<stickslip::QuasiCoulomb>{"quasi-coulomb"},
+                                    Named<stickslip::Frictionless>{"frictionless"}};
+/// And the cures of the lag.
 inline constexpr Choices coulomb_laws{
     Named<stickslip::Coulomb>{"coulomb"},
     Named<stickslip::QuasiCoulomb>{"quasi-coulomb"},
+    Named<stickslip::Frictionless>{"frictionless"},
     Named<stickslip::ExtrapolatedCoulomb>{"extrapolated-quasi-coulomb"},
     Named<stickslip::WithPressure<stickslip::Coulomb, stickslip::LagIterated>>{"lag-iterated-coulomb"},
-    Named<stickslip::WithPressure<stickslip::Coulomb, stickslip::Symmetrised>>{"symmetrised-coulomb"},
-    Named<stickslip::Frictionless>{"frictionless"}};
+    Named<stickslip::WithPressure<stickslip::Coulomb, stickslip::Symmetrised>>{"symmetrised-coulomb"}};
 /// All solvers.
 inline constexpr Choices all_solvers{Named<ChosenEither>{"banded"},
                                      Named<ChosenLower>{"eigen-ldlt"},
