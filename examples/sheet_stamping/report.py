@@ -10,6 +10,10 @@ import argparse
 import json
 import pathlib
 import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "common"))
+from skin import draw  # noqa: E402
 
 SOLVERS = {"quasi-coulomb": "cholmod", "coulomb": "mumps"}
 
@@ -30,39 +34,6 @@ def table(programs, refines, mu, travel):
                   f"| {100 * (force / expected - 1):+.2f} % | {b['seconds_total']:.0f} s | {b['peak_memory_mb']:.0f} MB |", flush=True)
 
 
-def draw(vtu, folder, title):
-    """The deformed sheet of a VTU file, coloured by plastic strain, as PNG and SVG."""
-    from vtkmodules.vtkFiltersGeneral import vtkWarpVector
-    from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(vtu))
-    warp = vtkWarpVector()
-    warp.SetInputConnection(reader.GetOutputPort())
-    warp.SetInputArrayToProcess(0, 0, 0, 0, "displacement")
-    outside = vtkGeometryFilter()
-    outside.SetInputConnection(warp.GetOutputPort())
-    outside.Update()
-    skin = outside.GetOutput()
-    strain = skin.GetCellData().GetArray("plastic_strain")
-    with open(folder / "skin.dat", "w") as data:
-        print("# x y z plastic_strain: one patch a facet of the surface", file=data)
-        for i in range(skin.GetNumberOfCells()):
-            points = skin.GetCell(i).GetPoints()
-            corners = [" ".join(f"{c:.6g}" for c in points.GetPoint(a)) + f" {strain.GetValue(i):.6g}" for a in (0, 1, 3, 2)]
-            print(*corners[:2], "", *corners[2:], "\n", sep="\n", file=data)
-    script = (f"set title '{title}'\nset view 52,35\nset view equal xyz\nset key off\nset cblabel 'plastic strain'\n"
-              "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
-              "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\nset zlabel 'z [mm]' rotate\nset xyplane at -45\nset xtics 20\nset ytics 20,20\nset ztics 10\n"
-              "set xrange [0:60]\nset yrange [0:60]\nset zrange [-45:5]\n"
-              "set pm3d depthorder corners2color c1 border lc rgb '#404040' lw 0.3\nsplot 'skin.dat' using 1:2:3:4 with pm3d\nunset output\n")
-    (folder / "sheet.gp").write_text("".join(
-        f"set terminal {kind} size 1000,700 noenhanced background rgb 'white' font 'sans,12'\nset output 'sheet.{end}'\n{script}"
-        for kind, end in (("pngcairo", "png"), ("svg", "svg"))))
-    subprocess.run(["gnuplot", "sheet.gp"], cwd=folder, check=True)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--programs", type=pathlib.Path, required=True, help="folder of the built examples")
@@ -80,7 +51,9 @@ def main():
         run(arguments.programs / "sheet_stamping", "--friction", "quasi-coulomb", "--solver", "cholmod", "--mu", str(arguments.mu),
             "--refine", str(arguments.drawn), "--output", str(arguments.out))
         files = sorted(arguments.out.glob("sheet_stamping_*.vtu"))
-    draw(files[-1], arguments.out, f"sheet_stamping, quasi-coulomb, mu = {arguments.mu:.2f}: a quarter of the sheet at 40 mm")
+    draw(files[-1], (arguments.out / "sheet.png").resolve(), f"sheet_stamping, quasi-coulomb, mu = {arguments.mu:.2f}: a quarter of the sheet at 40 mm",
+         "set view 52,35\nset xyplane at -45\nset xtics 20\nset ytics 20,20\nset ztics 10\n"
+         "set xrange [0:60]\nset yrange [0:60]\nset zrange [-45:5]")
     print(arguments.out / "sheet.png")
 
 
