@@ -52,6 +52,8 @@ int iron(const examples::Options& options) {
   block.hold("bottom", 1);                                                // y = 0, the plane of symmetry
   for (const Index component : {0, 1, 2}) block.hold("back", component);  // z = 0, on its base
 
+  const MarchOptions march{
+      .end = 1, .initial = 0.02 * (1 - along), .largest = 0.15 / (way + depth), .stops = {1 - along}};
   return examples::run<Model>(options, block,
                               {.labels = {.name = "ironing",
                                           .kinematics = "three-dimensional",
@@ -59,7 +61,7 @@ int iron(const examples::Options& options) {
                                           .travel = "way of the cylinder",
                                           .force = "force against the way",
                                           .view = "set xrange [-1:21]\nset yrange [-1:8]"},
-                               .march = {.end = 1, .initial = 0.02 * (1 - along), .largest = 0.15 / (way + depth)},
+                               .march = march,
                                .travel_mm = [=](const Problem<Model>& p) { return p.time() * (way + depth); },
                                .force_N = [](const Problem<Model>& p) { return -2 * p.contact_force("cylinder")[0]; },
                                .reach_mm = 10,

@@ -83,9 +83,11 @@ int dispatch(const Options& options, const Frictions& frictions, const Solvers& 
   frictions.for_each([&]<class F>(Named<F> friction) {
     if (options.friction != friction.name) return;
     solvers.for_each([&]<class S>(Named<S> solver) {
-      using Model = With<Base, F, S>;
-      if constexpr (is_offered<Model>())
+      if constexpr (is_offered<With<Base, F, S>>()) {
+        // A family's member itself, so that it and the family make one bundle.
+        using Model = With<Base, F, stickslip::SolverOf<With<Base, F, S>>>;
         if (options.solver == solver.name) code = run.template operator()<Model>();
+      }
     });
   });
   if (code < 0)

@@ -2,6 +2,8 @@
 #include "scene.hpp"
 
 #include <stickslip/element/fully_integrated.hpp>
+#include <stickslip/element/hex8.hpp>
+#include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/material/hypoelastic_j2.hpp>
 #include <stickslip/verify/element.hpp>
@@ -89,6 +91,52 @@ TEST_CASE("contact: body and tool that turn together feel nothing of it") {
   for (Index n = 0; n < body.mesh().node_count(); ++n)
     expected.segment<2>(2 * n) = turning.rotation * forces.segment<2>(2 * n);
   CHECK((system.residual() - expected).norm() < 1e-10 * expected.norm());
+}
+
+TEST_CASE("contact in space: body and tool that turn together about a skew axis feel nothing of it") {
+  using M = Model<EigenLdlt, QuasiCoulomb, FiniteJ2<LinearHardening>, ThreeDimensional, MeanDilatation<Hex8>>;
+  using W = Vec<Real, 3>;
+  rigid::Pose<3> turning;
+  const auto R = verify::rotation<Spatial>(2.3);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) turning.rotation(i, j) = R(i, j);
+  turning.translation = W(3, -1, 2);
+  Body<M> body(mesh::box({.size = {2, 1, 1}, .cells = {4, 2, 2}}), {}, material<FiniteJ2<LinearHardening>>());
+  std::vector<ContactPair<M>> pairs;
+  pairs.emplace_back(Contact<M>{.side = "back",  // z = 0
+                                .tool = rigid::sphere({1, 0.5, -3}, 3),
+                                .motion = [&](Real t) { return t <= 1 ? rigid::Pose<3>{} : turning; },
+                                .friction = {.mu = 0.3},
+                                .enforcement = {.normal = 1e4, .tangential = 1e3}},
+                     body.mesh(), body.kinematics());
+  typename System<M>::Inertia inertia{};
+  System<M> system(body, pairs, inertia, {}, {});
+  Field u = Field::Zero(system.dofs().components());
+  CHECK_FALSE(bool(pairs[0].start(body.mesh(), u, 0)));
+  for (Index n = 0; n < body.mesh().node_count(); ++n) u[3 * n + 2] = -0.1;
+  CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
+  system.commit();
+  for (Index n = 0; n < body.mesh().node_count(); ++n) u.segment<3>(3 * n) += W(0.004, 0.002, 0);
+  CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
+  system.commit();
+  const auto before = pairs[0].states();
+  CHECK(system.contact_summary().touching >= 3);
+  Field turned = u;
+  for (Index n = 0; n < body.mesh().node_count(); ++n) {
+    const W X = body.mesh().nodes[std::size_t(n)];
+    turned.segment<3>(3 * n) = turning.rotation * (X + u.segment<3>(3 * n)) + turning.translation - X;
+  }
+  CHECK_FALSE(bool(system.evaluate(turned, 2, 1)));
+  system.commit();
+  const auto& after = pairs[0].states();
+  Real friction = 0;
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    CHECK(after[k].touching == before[k].touching);
+    CHECK((after[k].force - turning.rotation * before[k].force).norm() < 1e-9);
+    CHECK(std::abs(after[k].slip - before[k].slip) < 1e-12);
+    friction = std::max(friction, std::hypot(before[k].force[0], before[k].force[1]));
+  }
+  CHECK(friction > 1);
 }
 
 }  // namespace

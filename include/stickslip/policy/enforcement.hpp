@@ -31,6 +31,11 @@ template <class E>
 inline constexpr bool is_augmented = requires(const E& enforcement, const Real& pressure) {
   enforcement.augmented(pressure);
 };
+/// Whether they are of the right kind, if there are any.
+template <class E>
+concept SoundMultipliers = !is_augmented<E> || requires(const E& enforcement, const Real& pressure) {
+  { enforcement.augmented(pressure) } -> std::same_as<typename E::template Memory<Real>>;
+};
 
 /// How contact is enforced. `Memory<S>` is what a node remembers of it, `weight` the measure behind PenaltyPer.
 /// docs/policies.md, section Enforcement.
@@ -51,6 +56,6 @@ concept EnforcementPolicy = requires {
   requires std::same_as<typename E::Role, role::Enforcement>;
   requires std::same_as<decltype(E::active), const bool>;
 }
-&&(!E::active || ContactEnforcement<E>);
+&&(!E::active || (ContactEnforcement<E> && SoundMultipliers<E>));
 
 }  // namespace stickslip

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "bundle.hpp"
+
+#include <stickslip/enforcement/augmented_lagrangian.hpp>
+
+struct Multipliers : AugmentedLagrangian {
+#ifndef CONTROL
+  Real augmented(const Real& pressure) const { return pressure; }  // must be a Memory
+#endif
+};
+struct Bundle : Sound {
+  using Enforcement = Multipliers;
+};
+
+static_assert(CheckModel<Bundle>::ok);
