@@ -45,6 +45,9 @@ inline constexpr Choices all_solvers{Named<ChosenEither>{"banded"},
                                      Named<ChosenCorrected>{"corrected-cholmod"},
                                      Named<ChosenCorrected>{"corrected-eigen-ldlt"}};
 
+/// Whether the books of work and energy are kept.
+enum class Books { none, kept };
+
 /// What is particular to a benchmark.
 template <class Model>
 struct Benchmark {
@@ -52,7 +55,6 @@ struct Benchmark {
   stickslip::MarchOptions march{};                                           ///< end, first and largest step
   std::function<double(const stickslip::Problem<Model>&)> travel_mm;         ///< abscissa of the history
   std::function<double(const stickslip::Problem<Model>&)> force_N;           ///< ordinate of the history
-  bool energies = false;                                                     ///< keep the books of work and energy
   std::function<bool(const stickslip::Problem<Model>&)> self_penetration{};  ///< whether the body passes through itself
   double reach_mm = 100;                                                     ///< how far the tools are drawn
   std::string section{};  ///< of a mesh in space, the side that is drawn: see patches()
@@ -60,7 +62,7 @@ struct Benchmark {
 
 /// Marches the problem to its end, keeps about 40 states as VTU and the deformed mesh at the march's stops, and writes
 /// what the options ask for.
-template <class Model>
+template <class Model, Books books = Books::none>
 int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Model> benchmark) {
   using namespace stickslip;
   benchmark.march.steps = options.steps;
@@ -90,12 +92,12 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   clock.start();
   auto march = problem.march(benchmark.march);
   std::optional<verify::EnergyLedger<MechanicsOf<Model>>> ledger;
-  if (benchmark.energies) ledger.emplace(problem);
+  if constexpr (books == Books::kept) ledger.emplace(problem);
   for (const StepReport& step : march) {
     clock.stop();
     r.steps.push_back(step);
     note();
-    if (ledger) ledger->update(step);
+    if constexpr (books == Books::kept) ledger->update(step);
     if (benchmark.self_penetration && !r.self_penetration_mm && benchmark.self_penetration(problem))
       r.self_penetration_mm = r.travel_mm.back();
     if (files)
@@ -116,7 +118,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   r.outcome = march.outcome();
   r.report = march.report();
   r.max_plastic_strain = problem.max_plastic_strain();
-  if (ledger) r.energies = ledger->energies();
+  if constexpr (books == Books::kept) r.energies = ledger->energies();
   r.checks_self_penetration = static_cast<bool>(benchmark.self_penetration);
   r.seconds = clock.seconds();
   if (files) {

@@ -38,21 +38,21 @@ class PointMemory {
 };
 
 /// The deformable body: element geometry, material memory and the loop over elements.
-template <class Model>
-class Body {
+template <class Kinematics_, class Element_, class Material_, Symmetry storage_>
+class BodyOf {
  public:
-  using Kinematics = typename Model::Kinematics;
-  using Element = typename Model::Element;
-  using Material = typename Model::Material;
+  using Kinematics = Kinematics_;
+  using Element = Element_;
+  using Material = Material_;
   using Shape = typename Kinematics::Shape;
   using MeshType = Mesh<Kinematics::dim, Element::nodes>;
   using State = typename Material::template State<Real, Shape>;
   static constexpr int dim = Kinematics::dim;
   static constexpr int dofs = Element::nodes * dim;
-  static constexpr Symmetry storage = matrix_storage<Model>;
+  static constexpr Symmetry storage = storage_;
   using Matrix = SparseMatrix<storage>;
 
-  Body(MeshType mesh, const Kinematics& kinematics, const Material& material)
+  BodyOf(MeshType mesh, const Kinematics& kinematics, const Material& material)
       : mesh_(std::move(mesh)), kinematics_(kinematics), material_(material) {
     if (mesh_.cells.empty()) throw std::invalid_argument("body: the mesh has no cells");
     geometry_.reserve(mesh_.cells.size());
@@ -205,5 +205,10 @@ class Body {
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dofs))>> slots_;
   ElementResult<Real, dofs, Element::points, State> result_;
 };
+
+/// The body of a bundle; bundles that differ in contact, inertia or solver share it.
+template <class Model>
+using Body =
+    BodyOf<typename Model::Kinematics, typename Model::Element, typename Model::Material, matrix_storage<Model>>;
 
 }  // namespace stickslip

@@ -56,28 +56,26 @@ inline std::ofstream open(const std::filesystem::path& path) {
 
 }  // namespace detail
 
-/// Writes the converged state as a VTK unstructured grid: reference coordinates; at nodes displacement, contact force
-/// [force], contact traction [force / reference area], slip and gap [length] (not a number where no tool is near the
-/// side); in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure
-/// and, where the material has it, plastic strain. In axisymmetry x is the radius, y the axis and z the hoop direction.
-/// Throws std::runtime_error, naming the file, when it cannot be written.
-template <class Model>
-void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
-  using Body = typename Scene<Model>::BodyType;
+namespace detail {
+
+// Of a body at the displacements u; `contacts` is empty, or all of them.
+template <class Body>
+void write_vtu(const std::filesystem::path& path, const Body& body, const Field& u, bool with_contact,
+               const std::vector<const ContactRecord<Body::dim>*>& contacts) {
   using Shape = typename Body::Shape;
   static_assert(std::endian::native == std::endian::little, "the file says that its numbers are little-endian");
   constexpr int dim = Body::dim;
   constexpr bool plastic = requires(typename Body::State s) {
     s.plastic_strain;
   };
-  const auto& mesh = problem.body().mesh();
+  const auto& mesh = body.mesh();
   const auto nodes = mesh.nodes.size(), cells = mesh.cells.size();
 
   std::vector<Real> points(3 * nodes, 0.0), displacement(3 * nodes, 0.0);
   for (std::size_t n = 0; n < nodes; ++n)
     for (std::size_t i = 0; i < dim; ++i) {
       points[3 * n + i] = mesh.nodes[n][static_cast<int>(i)];
-      displacement[3 * n + i] = problem.displacement(static_cast<Index>(n))[static_cast<int>(i)];
+      displacement[3 * n + i] = u[static_cast<Index>(n) * dim + static_cast<int>(i)];
     }
 
   std::vector<std::int64_t> connectivity, offsets;
@@ -92,20 +90,19 @@ void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
 
   std::vector<Real> stress(6 * cells, 0.0), mises(cells, 0.0), pressure(cells, 0.0),
       plastic_strain(plastic ? cells : 0, 0.0), volume(cells, 0.0);
-  problem.body().visit_points(
-      problem.displacement(), [&](Index cell, int, const Tensor<Real, Shape>& F, const auto& state, Real weight) {
-        const auto e = static_cast<std::size_t>(cell);
-        Tensor<Real, Shape> cauchy = kirchhoff(problem.body().material().respond(F, state, 0.0).P, F);
-        cauchy.v /= determinant(F);
-        static constexpr std::array<std::pair<int, int>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
-        for (std::size_t k = 0; k < order.size(); ++k)
-          if (Shape::couples(order[k].first, order[k].second))
-            stress[6 * e + k] += weight * cauchy(order[k].first, order[k].second);
-        mises[e] += weight * von_mises(cauchy);
-        pressure[e] -= weight * trace(cauchy) / 3;
-        if constexpr (plastic) plastic_strain[e] += weight * state.plastic_strain;
-        volume[e] += weight;
-      });
+  body.visit_points(u, [&](Index cell, int, const Tensor<Real, Shape>& F, const auto& state, Real weight) {
+    const auto e = static_cast<std::size_t>(cell);
+    Tensor<Real, Shape> cauchy = kirchhoff(body.material().respond(F, state, 0.0).P, F);
+    cauchy.v /= determinant(F);
+    static constexpr std::array<std::pair<int, int>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+    for (std::size_t k = 0; k < order.size(); ++k)
+      if (Shape::couples(order[k].first, order[k].second))
+        stress[6 * e + k] += weight * cauchy(order[k].first, order[k].second);
+    mises[e] += weight * von_mises(cauchy);
+    pressure[e] -= weight * trace(cauchy) / 3;
+    if constexpr (plastic) plastic_strain[e] += weight * state.plastic_strain;
+    volume[e] += weight;
+  });
   for (std::size_t e = 0; e < cells; ++e) {
     for (std::size_t k = 0; k < 6; ++k) stress[6 * e + k] /= volume[e];
     mises[e] /= volume[e];
@@ -113,26 +110,26 @@ void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
     if constexpr (plastic) plastic_strain[e] /= volume[e];
   }
 
-  std::ofstream out = detail::open(path);
+  std::ofstream out = open(path);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\">\n"
       << "<UnstructuredGrid><Piece NumberOfPoints=\"" << nodes << "\" NumberOfCells=\"" << cells << "\">\n<Points>\n";
-  detail::write_array(out, "Float64", "points", 3, points);
+  write_array(out, "Float64", "points", 3, points);
   out << "</Points>\n<Cells>\n";
-  detail::write_array(out, "Int64", "connectivity", 1, connectivity);
-  detail::write_array(out, "Int64", "offsets", 1, offsets);
-  detail::write_array(out, "UInt8", "types", 1, types);
+  write_array(out, "Int64", "connectivity", 1, connectivity);
+  write_array(out, "Int64", "offsets", 1, offsets);
+  write_array(out, "UInt8", "types", 1, types);
   out << "</Cells>\n<PointData Vectors=\"displacement\">\n";
-  detail::write_array(out, "Float64", "displacement", 3, displacement);
-  if constexpr (has_contact<Model>) {
+  write_array(out, "Float64", "displacement", 3, displacement);
+  if (with_contact) {
     std::vector<Real> force(3 * nodes, 0.0), traction(3 * nodes, 0.0), slip(nodes, 0.0),
         gap(nodes, std::numeric_limits<Real>::infinity());
-    problem.visit_contacts([&](const auto& pair) {
-      const std::vector<Real> areas = nodal_areas(mesh, problem.body().kinematics(), pair.side());
-      for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
-        const Index node = pair.nodes()[k];
+    for (const ContactRecord<dim>* pair : contacts) {
+      const std::vector<Real> areas = nodal_areas(mesh, body.kinematics(), pair->side());
+      for (std::size_t k = 0; k < pair->nodes().size(); ++k) {
+        const Index node = pair->nodes()[k];
         const auto n = static_cast<std::size_t>(node);
-        const ContactNodeState<dim>& state = pair.states()[k];
+        const ContactNodeState<dim>& state = pair->states()[k];
         for (std::size_t i = 0; i < dim; ++i) {
           force[3 * n + i] += state.force[static_cast<int>(i)];
           traction[3 * n + i] += state.force[static_cast<int>(i)] / areas[k];
@@ -140,21 +137,35 @@ void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
         slip[n] = std::max(slip[n], state.slip);
         gap[n] = std::min(gap[n], state.gap);
       }
-    });
+    }
     for (Real& g : gap)
       if (std::isinf(g)) g = std::numeric_limits<Real>::quiet_NaN();
-    detail::write_array(out, "Float64", "contact_force", 3, force);
-    detail::write_array(out, "Float64", "contact_traction", 3, traction);
-    detail::write_array(out, "Float64", "slip", 1, slip);
-    detail::write_array(out, "Float64", "gap", 1, gap);
+    write_array(out, "Float64", "contact_force", 3, force);
+    write_array(out, "Float64", "contact_traction", 3, traction);
+    write_array(out, "Float64", "slip", 1, slip);
+    write_array(out, "Float64", "gap", 1, gap);
   }
   out << "</PointData>\n<CellData>\n";
-  detail::write_array(out, "Float64", "cauchy_stress", 6, stress);
-  detail::write_array(out, "Float64", "von_mises_stress", 1, mises);
-  detail::write_array(out, "Float64", "pressure", 1, pressure);
-  if constexpr (plastic) detail::write_array(out, "Float64", "plastic_strain", 1, plastic_strain);
+  write_array(out, "Float64", "cauchy_stress", 6, stress);
+  write_array(out, "Float64", "von_mises_stress", 1, mises);
+  write_array(out, "Float64", "pressure", 1, pressure);
+  if constexpr (plastic) write_array(out, "Float64", "plastic_strain", 1, plastic_strain);
   out << "</CellData>\n</Piece></UnstructuredGrid>\n</VTKFile>\n";
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+}  // namespace detail
+
+/// Writes the converged state as a VTK unstructured grid: reference coordinates; at nodes displacement, contact force
+/// [force], contact traction [force / reference area], slip and gap [length] (not a number where no tool is near the
+/// side); in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure
+/// and, where the material has it, plastic strain. In axisymmetry x is the radius, y the axis and z the hoop direction.
+/// Throws std::runtime_error, naming the file, when it cannot be written.
+template <class Model>
+void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
+  std::vector<const ContactRecord<Scene<Model>::dim>*> contacts;
+  if constexpr (has_contact<Model>) problem.visit_contacts([&](const auto& pair) { contacts.push_back(&pair); });
+  detail::write_vtu(path, problem.body(), problem.displacement(), has_contact<Model>, contacts);
 }
 
 /// A series of states over time: `DIR/NAME_0000.vtu` and so on, with `DIR/NAME.pvd` to open in ParaView. The collection
