@@ -24,13 +24,10 @@ using namespace stickslip;
 extern template int stamp<Stamping<Coulomb, examples::ChosenFull>>(const examples::Options&);
 extern template int stamp<Stamping<Coulomb, examples::ChosenCorrected>>(const examples::Options&);
 extern template int stamp<Stamping<QuasiCoulomb, examples::ChosenLower>>(const examples::Options&);
-extern template int stamp<Stamping<QuasiCoulomb, examples::ChosenFull>>(const examples::Options&);
-extern template int stamp<Stamping<Frictionless, examples::ChosenLower>>(const examples::Options&);
-extern template int stamp<Stamping<Frictionless, examples::ChosenFull>>(const examples::Options&);
 
 int main(int argc, char** argv) {
   using examples::ChosenCorrected, examples::ChosenEither, examples::ChosenFull, examples::ChosenLower, examples::Named;
-  constexpr auto frictions = examples::paper_laws;
+  constexpr examples::Choices frictions{Named<Coulomb>{"coulomb"}, Named<QuasiCoulomb>{"quasi-coulomb"}};
   constexpr examples::Choices solvers{Named<ChosenEither>{"mumps"},
                                       Named<ChosenLower>{"cholmod"},
                                       Named<ChosenFull>{"umfpack"},

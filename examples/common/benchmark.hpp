@@ -20,11 +20,7 @@
 
 namespace examples {
 
-/// The paper's friction laws, under their command-line names.
-inline constexpr Choices paper_laws{Named<stickslip::Coulomb>{"coulomb"},
-                                    Named<stickslip::QuasiCoulomb>{"quasi-coulomb"},
-                                    Named<stickslip::Frictionless>{"frictionless"}};
-/// And the cures of the lag.
+/// The paper's friction laws and the cures of the lag, under their command-line names.
 inline constexpr Choices coulomb_laws{
     Named<stickslip::Coulomb>{"coulomb"},
     Named<stickslip::QuasiCoulomb>{"quasi-coulomb"},

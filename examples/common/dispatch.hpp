@@ -5,10 +5,9 @@
 #include "chosen_solver.hpp"
 #include "options.hpp"
 
-#include <stickslip/friction/coulomb.hpp>
-#include <stickslip/friction/frictionless.hpp>
 #include <stickslip/policy/model.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <iterator>
 #include <string>
@@ -46,20 +45,15 @@ struct With : Base {
   using LinearSolver = Solver_;
 };
 
-/// The bundles that programs offer: every valid one, but a solver that corrects only what there is to correct, and full
-/// matrices for symmetric systems only under the paper's laws, where they are to be compared.
+/// The bundles that programs offer: every valid one, but for a symmetric system no full matrix and nothing to correct.
 template <class Model>
 constexpr bool is_offered() {
   using namespace stickslip;
-  if constexpr (!valid_model<Model>) {
+  if constexpr (!valid_model<Model>)
     return false;
-  } else {
-    constexpr bool symmetric = system_symmetry<Model> == Symmetry::symmetric;
-    constexpr bool full = matrix_storage<Model> == Symmetry::general;
-    using F = typename Model::Friction;
-    constexpr bool paper = std::is_same_v<F, QuasiCoulomb> || std::is_same_v<F, Frictionless>;
-    return !(symmetric && takes_corrections<SolverOf<Model>>)&&!(symmetric && full && !paper);
-  }
+  else
+    return system_symmetry<Model> == Symmetry::general ||
+           (matrix_storage<Model> == Symmetry::symmetric && !takes_corrections<SolverOf<Model>>);
 }
 
 /// The solvers that take the system of the options' friction law.
@@ -90,10 +84,14 @@ int dispatch(const Options& options, const Frictions& frictions, const Solvers& 
       }
     });
   });
-  if (code < 0)
-    throw BadOption("--solver: \"" + options.solver + "\" takes symmetric systems only and --friction " +
-                    options.friction + " makes a non-symmetric one; it takes " +
-                    joined(able<Base>(options, frictions, solvers)));
+  if (code < 0) {
+    const auto others = able<Base>(options, frictions, solvers);
+    const bool symmetric = std::find(others.begin(), others.end(), "cholmod") != others.end();
+    throw BadOption("--solver: \"" + options.solver + "\" takes " +
+                    (symmetric ? "non-symmetric systems and --friction " : "symmetric systems only and --friction ") +
+                    options.friction + " makes a " + (symmetric ? "symmetric" : "non-symmetric") + " one; it takes " +
+                    joined(others));
+  }
   return code;
 }
 
