@@ -25,7 +25,6 @@ static_assert(matrix_storage<OnFactor> == Symmetry::symmetric);
 static_assert(keeps_couplings<OnFactor> && !keeps_couplings<Exact>);
 // A symmetric system has nothing to correct, and keeps nothing for it.
 static_assert(!keeps_couplings<Model<Corrected<EigenLdlt>, QuasiCoulomb>>);
-static_assert(sizeof(ContactPair<OnFactor>) > sizeof(ContactPair<Model<Corrected<EigenLdlt>, QuasiCoulomb>>) - 16);
 // Only friction's couplings are corrected.
 static_assert(!valid_model<Model<Corrected<EigenLdlt>, Coulomb, HypoelasticJ2<LinearHardening>>>);
 
