@@ -88,15 +88,16 @@ Contact<Model, Friction> rubbing() {
   if constexpr (Friction::active) give(contact.friction);
   return contact;
 }
-template <class Model>
-void add_contacts(std::vector<Contact<Model>>& contacts) {
-  contacts.push_back(rubbing<Model, typename Model::Friction>());
+// The mechanics are what a contact knows of its bundle, and what can be deduced from it.
+template <class M>
+void add_contacts(std::vector<ContactOf<M, typename M::Friction>>& contacts) {
+  contacts.push_back(rubbing<M, typename M::Friction>());
 }
-template <class Model, class First, class Second>
-void add_contacts(std::tuple<std::vector<Contact<Model, First>>, std::vector<Contact<Model, Second>>>& contacts) {
-  std::get<0>(contacts).push_back(rubbing<Model, First>());
-  Contact<Model, Second> aside{
-      .side = "right", .tool = wall(std::integral_constant<int, Model::Kinematics::dim>{}), .name = "wall"};
+template <class M, class First, class Second>
+void add_contacts(std::tuple<std::vector<ContactOf<M, First>>, std::vector<ContactOf<M, Second>>>& contacts) {
+  std::get<0>(contacts).push_back(rubbing<M, First>());
+  Contact<M, Second> aside{
+      .side = "right", .tool = wall(std::integral_constant<int, M::Kinematics::dim>{}), .name = "wall"};
   give(aside.enforcement);
   std::get<1>(contacts).push_back(std::move(aside));
 }
