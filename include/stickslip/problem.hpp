@@ -121,6 +121,7 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
       newton_(NewtonOptions{.tolerance = options.tolerance,
                             .max_iterations = options.max_iterations,
                             .line_search = options.line_search}) {
+  if constexpr (takes_passes<Model>() || has_lag<Model>()) pass_start_ = problem.u_;
   if (!problem.system_) {
     if constexpr (has_inertia<Model>)
       problem.system_ = std::make_unique<System<Mechanical>>(problem.body_, problem.pairs_, *problem.inertia_,

