@@ -216,6 +216,11 @@ void March<Model>::advance() {
   System<Mechanical>& system = *problem_.system_;
   Field& u = trial_;
   Index rejected = 0;
+  const auto give_up = [&] {
+    ++rejected;
+    ++report_.rejected_steps;
+    if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
+  };
   for (;;) {
     const Real time = control_.next();
     const Real dt = time - problem_.time_;
@@ -238,7 +243,6 @@ void March<Model>::advance() {
       extrapolate = true;
     }
     Trouble trouble = system.impose(time, u);
-    if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
     NewtonReport newton;
     if (trouble) {
       newton.trouble = trouble;
@@ -264,8 +268,7 @@ void March<Model>::advance() {
       if (error > 2 && options_.steps == 0) {
         control_.reject(time, error);
         if (!control_.too_small()) {
-          ++rejected;
-          ++report_.rejected_steps;
+          give_up();
           continue;
         }
       }
@@ -310,8 +313,7 @@ void March<Model>::advance() {
       report_.max_lag = std::max(report_.max_lag, step_.lag);
       return;
     }
-    ++rejected;
-    ++report_.rejected_steps;
+    give_up();
     control_.reject(time);
     if (control_.too_small()) {
       outcome_ = {.trouble = newton.trouble,

@@ -221,9 +221,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       felt_.setZero(static_cast<Index>(nodes_.size()));
       changes_ = felt_;
     }
-    if constexpr (passes) {
-      spacing_ = spacings(mesh, this->side_);
-    }
+    if constexpr (passes) spacing_ = spacings(mesh, this->side_);
     weigh(mesh, kinematics);
   }
 
@@ -284,7 +282,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       states_[k].gap = at.gap;
       if constexpr (with_friction) committed_[k].friction.place = at.place;
     }
-    if constexpr (passes) begin_passes();
+    if constexpr (passes || lags) begin_passes();
     return {};
   }
 
@@ -364,7 +362,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     return {};
   }
 
-  /// Begins the passes of a step at the multipliers and the bounds of the converged state.
+  /// Goes back to the multipliers and the bounds of the converged state, where the passes of a step begin. `start` and
+  /// `commit` do so; a step that is given up needs it.
   void begin_passes() requires(passes || lags) {
     renewed_ = committed_;
     if constexpr (iterates) relaxation_ = {};
@@ -376,13 +375,11 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       relaxation_.next(changes());
       see(relaxation_.share);
     }
-    for (std::size_t k = 0; k < nodes_.size(); ++k) {
-      Memory& next = renewed_[k];
-      if constexpr (is_augmented<Enforcement>) next.enforcement = trial_[k].enforcement;
-      if constexpr (with_friction) {
-        if constexpr (is_augmented<Enforcement>) next.friction.traction = trial_[k].friction.traction;
+    if constexpr (is_augmented<Enforcement>)
+      for (std::size_t k = 0; k < nodes_.size(); ++k) {
+        renewed_[k].enforcement = trial_[k].enforcement;
+        if constexpr (with_friction) renewed_[k].friction.traction = trial_[k].friction.traction;
       }
-    }
   }
   /// Goes a smaller part of the way of the last `renew`, where that has led to a step without a solution; false when
   /// there is nothing left of it.
@@ -444,6 +441,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     std::swap(states_, trial_states_);
     pressures_.commit();
     force_ = trial_force_;
+    if constexpr (passes || lags) begin_passes();
   }
 
  private:

@@ -169,7 +169,7 @@ class System {
     return {};
   }
 
-  /// Begins the passes of a step at the converged state's multipliers and bounds.
+  /// Goes back to the converged state's multipliers and bounds, after passes that are given up.
   void begin_passes() requires(with_passes || with_lag) {
     for_each_contact(pairs_, [](auto& pair) {
       using Pair = std::remove_reference_t<decltype(pair)>;

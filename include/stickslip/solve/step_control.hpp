@@ -22,7 +22,7 @@ struct MarchOptions {
   Real time_tolerance = 0;      ///< with inertia: limit of a step's local error (theory.md, eq. 7.8) [length]; 0: none
   Real lag_tolerance = 0;       ///< that automatic steps aim at, see StepReport::lag (theory.md, eq. 6.6) [-]; 0: none
   Index max_iterations = 20;    ///< of Newton's method
-  Real pass_tolerance = 1e-4;   ///< of passes over a step, where the bundle takes them: see Problem
+  Real pass_tolerance = 1e-4;   ///< of passes over a step, where the bundle takes them (theory.md, eq. 4.18 and 5.29) [-]
   Index max_passes = 30;        ///< over a step
   bool line_search = true;
   bool watch_lag = true;  ///< probe lagging bounds that swing, and at the end, and give up where they feed back
