@@ -71,7 +71,6 @@ int extrude(const examples::Options& options) {
        .march = {.end = 1,
                  .initial = 0.1 / travel,
                  .largest = 1.6 / travel,
-                 .lag_tolerance = p.at("lag-tolerance"),
                  .stops = {44.5 / travel, 89 / travel, 135 / travel}},
        .travel_mm = [](const Problem<Model>& b) { return travel * b.time(); },
        .force_N = [](const Problem<Model>& b) { return b.reaction("bottom", 1); },
@@ -94,12 +93,7 @@ int main(int argc, char** argv) {
                       .about = "radius of the joint of container and cone, in mm",
                       .value = 10,
                       .low = 0.1,
-                      .high = 1000},
-                     {.name = "lag-tolerance",
-                      .about = "that steps aim at with a lagged law; 0 for none",
-                      .value = 0,
-                      .low = 0,
-                      .high = 10}}};
+                      .high = 1000}}};
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;

@@ -63,6 +63,9 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   using namespace stickslip;
   benchmark.march.steps = options.steps;
   benchmark.march.tolerance = options.tolerance;
+  benchmark.march.lag_tolerance = options.lag_tolerance;
+  benchmark.march.step_tolerance = options.step_tolerance;
+  benchmark.march.space_every = options.space_every;
   Record r{.labels = benchmark.labels, .symmetric_storage = Problem<Model>::symmetric_storage};
   r.elements = problem.body().mesh().cell_count();
   const auto note = [&] {

@@ -56,7 +56,7 @@ std::string joined(const std::vector<std::string>& names) {
 std::optional<Options> parse(int argc, char** argv, const Program& program) {
   namespace po = boost::program_options;
   Options o;
-  std::string mu, refine, steps, tolerance, output;
+  std::string mu, refine, steps, tolerance, lag_tolerance, step_tolerance, space_every, output;
   const std::string about_friction = "friction law: " + joined(program.frictions),
                     about_solver = "linear solver: " + joined(program.solvers),
                     about_mu = "friction coefficient (default " + short_number(program.mu) + "; 0 with frictionless)",
@@ -73,6 +73,9 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
   add("refine", &refine, "N", "N times the elements in each direction (default 1)");
   add("steps", &steps, "auto|N", "automatic steps, or N equal ones (default auto)");
   add("tolerance", &tolerance, "X", about_tolerance);
+  add("lag-tolerance", &lag_tolerance, "X", "estimated error by lag that automatic steps aim at (default none)");
+  add("step-tolerance", &step_tolerance, "X", "the same of the error by the size of the steps (default none)");
+  add("mesh-error-every", &space_every, "N", "estimate the error of the mesh every N steps, 0 for never (default 10)");
   add("output", &output, "DIR", "write VTU, CSV and pictures there");
   add("json", &o.json, "FILE", "write the results there, - for standard output");
   std::map<std::string, std::string> given;
@@ -112,6 +115,13 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
     o.steps = integer("steps", steps, 1, 10'000'000, "auto or a whole number from 1 to 10000000");
   o.tolerance = values.count("tolerance") ? number("tolerance", tolerance, 1e-14, 0.1, "a number from 1e-14 to 0.1")
                                           : program.tolerance;
+  const auto wanted = [&](const char* name, const std::string& text) {
+    return values.count(name) ? number(name, text, 0, 10, "a number from 0 to 10") : 0;
+  };
+  o.lag_tolerance = wanted("lag-tolerance", lag_tolerance);
+  o.step_tolerance = wanted("step-tolerance", step_tolerance);
+  if (values.count("mesh-error-every"))
+    o.space_every = integer("mesh-error-every", space_every, 0, 1'000'000, "a whole number from 0 to 1000000");
   if (values.count("output") && output.empty()) refuse("output", output, "the name of a folder");
   o.output = output;
   for (const Parameter& p : program.parameters) {

@@ -28,8 +28,10 @@ struct Options {
   int refine = 1;
   int steps = 0;  ///< 0: automatic
   double tolerance = 0;
-  std::filesystem::path output;  ///< empty: write no files
-  std::string json;              ///< empty: none; "-": standard output
+  double lag_tolerance = 0, step_tolerance = 0;  ///< 0: none
+  int space_every = 10;                          ///< steps from one estimate of the mesh's error to the next; 0: none
+  std::filesystem::path output;                  ///< empty: write no files
+  std::string json;                              ///< empty: none; "-": standard output
   bool quiet = false;
   bool list = false;
   std::map<std::string, double> parameters;  ///< of the benchmark, by name

@@ -56,11 +56,20 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
   j["seconds_contact"] = r.report.timings.contact;
   j["seconds_factorization"] = r.report.timings.factorization;
   j["seconds_solve"] = r.report.timings.solve;
+  j["seconds_estimates"] = r.report.timings.estimates;
   j["peak_memory_mb"] = peak_memory_mb();
   j["max_penetration_mm"] = r.report.max_penetration;
   j["max_slip_mm"] = r.report.max_slip;
   j["max_plastic_strain"] = r.max_plastic_strain;
   j["max_lag"] = r.report.max_lag;
+  const auto& errors = r.report.errors;
+  j["estimated_error_lag"] = errors.lag;
+  j["estimated_error_time"] = errors.time;
+  j["estimated_error_penetration"] = errors.penetration;
+  if (options.space_every > 0)
+    j["estimated_error_space"] = errors.space;
+  else
+    j["estimated_error_space"] = nullptr;
   j["final_force_N"] = r.force_N.back();
   if (r.energies) {
     const auto& e = *r.energies;
@@ -88,13 +97,14 @@ void write_history(const std::filesystem::path& path, const Record& r) {
   std::ofstream csv(path);
   csv.precision(12);
   csv << "step,time_s,displacement_mm,force_N,dt_s,iterations,rejected,residual,nodes_in_contact,nodes_sliding,max_"
-         "penetration_mm,max_slip_mm,lag\n"
-      << "0," << r.time_s[0] << ',' << r.travel_mm[0] << ',' << r.force_N[0] << ",0,0,0,0,0,0,0,0,0\n";
+         "penetration_mm,max_slip_mm,lag,error_lag,error_time,error_penetration,error_space\n"
+      << "0," << r.time_s[0] << ',' << r.travel_mm[0] << ',' << r.force_N[0] << ",0,0,0,0,0,0,0,0,0,0,0,0,0\n";
   for (std::size_t i = 0; i < r.steps.size(); ++i) {
     const auto& s = r.steps[i];
     csv << s.number << ',' << r.time_s[i + 1] << ',' << r.travel_mm[i + 1] << ',' << r.force_N[i + 1] << ',' << s.dt
         << ',' << s.iterations << ',' << s.rejected << ',' << s.residual << ',' << s.contact.touching << ','
-        << s.contact.sliding << ',' << s.contact.max_penetration << ',' << s.contact.max_slip << ',' << s.lag << '\n';
+        << s.contact.sliding << ',' << s.contact.max_penetration << ',' << s.contact.max_slip << ',' << s.lag << ','
+        << s.errors.lag << ',' << s.errors.time << ',' << s.errors.penetration << ',' << s.errors.space << '\n';
   }
   if (!csv.flush()) throw std::runtime_error("cannot write " + path.string());
 }
@@ -173,10 +183,11 @@ int conclude(const Options& options, const Record& r) {
   if (!options.quiet && options.json != "-")
     std::printf(
         "%s %s mu %.2f %s: %d steps, %d iterations, %d rejected; %.1f mm, %.0f N; penetration %.4f mm, slip %.2f mm, "
-        "lag %.3f; %.1f ms\n",
+        "lag %.3f; %.1f ms\n  estimated errors: lag %.2g %%, steps %.2g %%, penetration %.2g %%, mesh %.2g %%\n",
         r.labels.name.c_str(), options.friction.c_str(), options.mu, options.solver.c_str(), r.report.steps,
         r.report.iterations, r.report.rejected_steps, r.travel_mm.back(), r.force_N.back(), r.report.max_penetration,
-        r.report.max_slip, r.report.max_lag, 1e3 * r.seconds);
+        r.report.max_slip, r.report.max_lag, 1e3 * r.seconds, 100 * r.report.errors.lag, 100 * r.report.errors.time,
+        100 * r.report.errors.penetration, 100 * r.report.errors.space);
   if (!options.quiet && r.self_penetration_mm)
     std::fprintf(stderr, "%s: from %.1f mm on the body passes through itself; there is no self-contact yet\n",
                  r.labels.name.c_str(), *r.self_penetration_mm);

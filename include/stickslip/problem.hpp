@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/assembly/stress_recovery.hpp>
 #include <stickslip/scene.hpp>
 #include <stickslip/solve/newton.hpp>
 #include <stickslip/solve/report.hpp>
@@ -76,8 +77,10 @@ class March {
   RunReport report_{};
   Outcome outcome_{};
   Field trial_, driven_, pass_start_;
-  Real last_swing_ = 0;  // of the bounds' lag, over the bounds
-  Index swings_ = 0;     // steps in a row in which it changed its sign and did not fall
+  ForcePredictor predictor_;
+  std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
+  Real last_swing_ = 0;                                                           // of the bounds' lag, over the bounds
+  Index swings_ = 0;  // steps in a row in which it changed its sign and did not fall
   bool begun_ = false;
   bool ended_ = false;
 };
@@ -122,6 +125,9 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
                             .max_iterations = options.max_iterations,
                             .line_search = options.line_search}) {
   if constexpr (takes_passes<Model>() || has_lag<Model>()) pass_start_ = problem.u_;
+  if (options.space_every > 0) {
+    stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
+  }
   if (!problem.system_) {
     if constexpr (has_inertia<Model>)
       problem.system_ = std::make_unique<System<Mechanical>>(problem.body_, problem.pairs_, *problem.inertia_,
@@ -276,6 +282,13 @@ void March<Model>::advance() {
     if (!newton.trouble) {
       const ContactSummary contact = system.contact_summary();
       const Real lag = contact.bound > 0 ? contact.lag / contact.bound : 0;
+      const Real work = std::abs(system.internal().dot(u - problem_.u_)) + contact.dissipated;
+      const auto part = [&](Real missed) { return work > 0 ? std::abs(missed) / work : 0; };
+      ErrorEstimates errors = {.lag = part(contact.missed),
+                               .time = predictor_.error(work, dt),
+                               .penetration = part(contact.stored),
+                               .space = step_.errors.space};
+      predictor_.take(work, dt);
       if constexpr (has_lag<Model>())
         if (feeds_back(u, time, dt, contact)) {
           outcome_ = {.trouble = {Cause::lag_feeds_back, {}},
@@ -286,7 +299,10 @@ void March<Model>::advance() {
           ended_ = true;
           return;
         }
-      control_.accept(time, first_iterations, error, options_.lag_tolerance > 0 ? lag / options_.lag_tolerance : 0);
+      Real excess = 0;
+      if (options_.lag_tolerance > 0) excess = errors.lag / options_.lag_tolerance;
+      if (options_.step_tolerance > 0) excess = std::max(excess, errors.time / options_.step_tolerance);
+      control_.accept(time, first_iterations, error, excess);
       system.commit();
       if constexpr (has_inertia<Model>) {
         problem_.increment_before_.swap(problem_.last_increment_);
@@ -297,6 +313,11 @@ void March<Model>::advance() {
       problem_.u_ = u;
       problem_.time_ = time;
       for (Index c = 0; c < system.dofs().components(); ++c) problem_.reactions_[c] = system.reaction(c);
+      if (stress_ && report_.steps % options_.space_every == 0) {
+        const Stopwatch watch(system.timings.estimates);
+        stress_->update(problem_.body_, u);
+        errors.space = stress_->relative();
+      }
 
       step_ = {.number = ++report_.steps,
                .time = time,
@@ -307,10 +328,13 @@ void March<Model>::advance() {
                .residual = newton.residual,
                .contact = contact,
                .lag = lag,
-               .local_error = local_error};
+               .local_error = local_error,
+               .work = work,
+               .errors = errors};
       report_.max_penetration = std::max(report_.max_penetration, step_.contact.max_penetration);
       report_.max_slip = std::max(report_.max_slip, step_.contact.max_slip);
       report_.max_lag = std::max(report_.max_lag, step_.lag);
+      report_.book(work, errors);
       return;
     }
     give_up();

@@ -63,6 +63,7 @@ TEST_CASE("contact: body and tool that turn together feel nothing of it") {
   for (Index n = 0; n < body.mesh().node_count(); ++n) u[2 * n + 1] = -0.05;
   CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
   system.commit();
+  const auto pressed = pairs[0].states();
   for (Index n = 0; n < body.mesh().node_count(); ++n) u[2 * n] += 0.004;
   CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
   system.commit();
@@ -91,7 +92,7 @@ TEST_CASE("contact: body and tool that turn together feel nothing of it") {
   CHECK(friction > 1);  // there was friction to be kept
   // The bound is that of the pressures of the first commit: the law saw them without a march around the system.
   Real slid = 0;
-  for (const auto& state : before) slid = std::max(slid, state.slip);
+  for (std::size_t k = 0; k < before.size(); ++k) slid = std::max(slid, before[k].slip - pressed[k].slip);
   CHECK(slid > 0);
   CHECK(slid < 0.004);
   Field expected = forces;

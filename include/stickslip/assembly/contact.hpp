@@ -60,6 +60,8 @@ struct ContactSummary {
   Real lag = 0;         ///< sum of the changes of these that the law has not seen yet [force]
   Real swing = 0;       ///< the same with its sign, of nodes that touched before the step as well [force]
   Real dissipated = 0;  ///< by friction in the step [energy]
+  Real missed = 0;      ///< what friction would dissipate besides in the step if its bounds did not lag [energy]
+  Real stored = 0;      ///< by penetration: the nodes' changes in the step, their magnitudes summed [energy]
 
   void merge(const ContactSummary& other) {
     touching += other.touching;
@@ -70,6 +72,8 @@ struct ContactSummary {
     lag += other.lag;
     swing += other.swing;
     dissipated += other.dissipated;
+    missed += other.missed;
+    stored += other.stored;
   }
 };
 
@@ -108,6 +112,7 @@ struct ContactNodeState {
   Vec<Real, dim> force = Vec<Real, dim>::Zero();  ///< of the node on the tool [force]
   Real gap = 0;                                   ///< [length]
   Real slip = 0;                                  ///< slid distance so far [length]; 0 without friction
+  Real pressure = 0;                              ///< part of the force along the tool's normal [force]
   bool touching = false;
   bool sliding = false;
 };
@@ -326,6 +331,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       state.touching = node.touching;
       state.sliding = node.sliding;
       state.force.setZero();
+      state.pressure = node.touching ? node.pressure.value : 0;
+      summary_.stored += 0.5 * std::abs(state.pressure * state.gap - states_[k].pressure * states_[k].gap);
       pressures_[k] = node.pressure;
       if constexpr (with_friction) {
         state.slip = node.memory.friction.slip;
@@ -358,6 +365,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       summary_.lag += std::abs(node.lag);
       if (states_[k].touching) summary_.swing += node.lag;
       summary_.dissipated += node.dissipated;
+      summary_.missed += node.missed;
     }
     return {};
   }

@@ -52,6 +52,7 @@ struct NodeContact {
   S bound = S(0);                               ///< largest friction force at the current pressure [force]
   S lag = S(0);                                 ///< bound at the current pressure less the bound that was used [force]
   S dissipated = S(0);                          ///< work of friction in this step [energy]
+  S missed = S(0);                              ///< work that friction would do besides at the current bound [energy]
   Cause cause = Cause::none;
   bool touching = false;
   bool sliding = false;
@@ -138,6 +139,7 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     if constexpr (Law::depends_on_pressure && !Pressure::follows_current) {
       out.bound = bound_at(now, end.slide).value;
       out.lag = out.bound - end.bound;
+      out.missed = out.lag * end.slide;
     }
     out.memory.friction.traction = along_surface<S, dim>(end.traction, at.normal);
     if constexpr (Law::depends_on_pressure)

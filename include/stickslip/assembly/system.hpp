@@ -28,6 +28,7 @@ struct Timings {
   Real contact = 0;        ///< closest points, contact and friction
   Real factorization = 0;  ///< numeric and, once, symbolic
   Real solve = 0;          ///< forward and backward substitution
+  Real estimates = 0;      ///< of the mesh's error
 };
 
 /// Adds the time of a scope to a counter.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/assembly/stress_recovery.hpp>
 #include <stickslip/problem.hpp>
 
 #include <array>
@@ -150,6 +151,9 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
   write_array(out, "Float64", "von_mises_stress", 1, mises);
   write_array(out, "Float64", "pressure", 1, pressure);
   if constexpr (plastic) write_array(out, "Float64", "plastic_strain", 1, plastic_strain);
+  StressRecovery<Body> recovery(body);
+  recovery.update(body, u);
+  write_array(out, "Float64", "stress_error", 1, recovery.cells());
   out << "</CellData>\n</Piece></UnstructuredGrid>\n</VTKFile>\n";
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
 }
@@ -158,9 +162,10 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
 
 /// Writes the converged state as a VTK unstructured grid: reference coordinates; at nodes displacement, contact force
 /// [force], contact traction [force / reference area], slip and gap [length] (not a number where no tool is near the
-/// side); in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure
-/// and, where the material has it, plastic strain. In axisymmetry x is the radius, y the axis and z the hoop direction.
-/// Throws std::runtime_error, naming the file, when it cannot be written.
+/// side); in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure,
+/// the estimated error of the mesh in the stress (theory.md, eq. 6.15) and, where the material has it, plastic strain.
+/// In axisymmetry x is the radius, y the axis and z the hoop direction. Throws std::runtime_error, naming the file,
+/// when it cannot be written.
 template <class Model>
 void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
   std::vector<const ContactRecord<Scene<Model>::dim>*> contacts;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/assembly/system.hpp>
+#include <stickslip/solve/error_estimates.hpp>
 #include <stickslip/solve/newton.hpp>
 
 namespace stickslip {
@@ -20,6 +21,8 @@ struct StepReport {
   /// (theory.md, eq. 5.11); zero for laws that follow the current pressure.
   Real lag = 0;
   Real local_error = 0;  ///< of the time scheme in this step (theory.md, eq. 7.8) [length]; 0 without inertia
+  Real work = 0;         ///< done on the body in the step: by deforming it and by friction [energy]
+  ErrorEstimates errors{};
 };
 
 /// Sums over a run.
@@ -33,6 +36,18 @@ struct RunReport {
   Real max_penetration = 0;  ///< [length]
   Real max_slip = 0;         ///< [length]
   Real max_lag = 0;          ///< [-]
+  Real total_work = 0;       ///< sum of the magnitudes of the steps' work [energy]
+  ErrorEstimates errors{};   ///< the steps' means, weighted with their work
+
+  void book(Real step_work, const ErrorEstimates& step) {
+    total_work += step_work;
+    if (!(total_work > 0)) return;
+    const Real share = step_work / total_work;
+    errors.lag += share * (step.lag - errors.lag);
+    errors.time += share * (step.time - errors.time);
+    errors.penetration += share * (step.penetration - errors.penetration);
+    errors.space += share * (step.space - errors.space);
+  }
 };
 
 }  // namespace stickslip

@@ -20,12 +20,15 @@ struct MarchOptions {
   Index wanted_iterations = 4;  ///< automatic steps grow below this count and shrink above
   Real tolerance = 1e-5;        ///< of Newton's method, see NewtonOptions
   Real time_tolerance = 0;      ///< with inertia: limit of a step's local error (theory.md, eq. 7.8) [length]; 0: none
-  Real lag_tolerance = 0;       ///< that automatic steps aim at, see StepReport::lag (theory.md, eq. 6.6) [-]; 0: none
-  Index max_iterations = 20;    ///< of Newton's method
-  Real pass_tolerance = 1e-4;   ///< of passes over a step, where the bundle takes them (theory.md, eq. 4.18 and 5.29) [-]
-  Index max_passes = 30;        ///< over a step
+  Real lag_tolerance = 0;   ///< that automatic steps aim at, see ErrorEstimates::lag (theory.md, eq. 6.6) [-]; 0: none
+  Real step_tolerance = 0;  ///< the same for ErrorEstimates::time
+  Index max_iterations = 20;  ///< of Newton's method
+  Real pass_tolerance =
+      1e-4;               ///< of passes over a step, where the bundle takes them (theory.md, eq. 4.18 and 5.29) [-]
+  Index max_passes = 30;  ///< over a step
+  Index space_every = 0;  ///< steps from one estimate of the mesh's error to the next; 0: none
   bool line_search = true;
-  bool watch_lag = true;  ///< probe lagging bounds that swing, and at the end, and give up where they feed back
+  bool watch_lag = true;      ///< probe lagging bounds that swing, and at the end, and give up where they feed back
   std::vector<Real> stops{};  ///< times that a step must end at
 
   void validate(Real now) const {
@@ -35,9 +38,11 @@ struct MarchOptions {
     if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument("march: the tolerance must lie between 0 and 1");
     if (max_iterations < 1) throw std::invalid_argument("march: needs at least one iteration");
     if (!(pass_tolerance > 0)) throw std::invalid_argument("march: the pass tolerance must be positive");
+    if (space_every < 0) throw std::invalid_argument("march: the steps between estimates must not be negative");
     if (max_passes < 1) throw std::invalid_argument("march: needs at least one pass");
     if (!(time_tolerance >= 0)) throw std::invalid_argument("march: the time tolerance must not be negative");
     if (!(lag_tolerance >= 0)) throw std::invalid_argument("march: the lag tolerance must not be negative");
+    if (!(step_tolerance >= 0)) throw std::invalid_argument("march: the step tolerance must not be negative");
     if (initial < 0 || largest < 0 || smallest < 0)
       throw std::invalid_argument("march: step sizes must not be negative");
   }
@@ -75,9 +80,9 @@ class StepControl {
     return wanted;
   }
 
-  /// Takes a converged step that ends at `time`; `error` is its local error over the time tolerance and `lag` its lag
-  /// over the lag tolerance, 0 without them.
-  void accept(Real time, Index iterations, Real error = 0, Real lag = 0) {
+  /// Takes a converged step that ends at `time`; `error` is its local error over the time tolerance, and `excess` the
+  /// largest of the estimates that go with the step's size over its tolerance; 0 without them.
+  void accept(Real time, Index iterations, Real error = 0, Real excess = 0) {
     const Real taken = time - time_;
     time_ = time;
     if (options_.steps > 0) {
@@ -95,8 +100,8 @@ class StepControl {
     // A step shortened to meet a stop says nothing against the size, unless it was hard even so.
     size_ = factor < 1 ? std::min(size_, taken) * factor : std::max(size_, taken * factor);
     if (error > 0) size_ = std::min(size_, taken * error_factor(error));
-    // The lag goes with the size. A first contact lags wholly at any size, so one step says little.
-    if (lag > 0) size_ = std::min(size_, taken * std::clamp(1 / lag, 0.5, 2.0));
+    // A first contact lags wholly at any size, so one step says little.
+    if (excess > 0) size_ = std::min(size_, taken * std::clamp(1 / excess, 0.5, 2.0));
     if (options_.largest > 0) size_ = std::min(size_, options_.largest);
   }
 
