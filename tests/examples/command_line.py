@@ -10,7 +10,8 @@ import tempfile
 program, failing = sys.argv[1:]
 KEYS = """benchmark friction mu solver kinematics material elements unknowns symmetric_storage completed steps iterations
 rejected_steps factorizations indefinite_factorizations seconds_total seconds_assembly seconds_contact seconds_factorization
-seconds_solve peak_memory_mb max_penetration_mm max_slip_mm max_plastic_strain max_lag final_force_N history""".split()
+seconds_solve seconds_estimates peak_memory_mb max_penetration_mm max_slip_mm max_plastic_strain max_lag estimated_error_lag
+estimated_error_time estimated_error_penetration estimated_error_space final_force_N history""".split()
 checks = 0
 
 
@@ -41,6 +42,9 @@ for options, words in [
     (["--steps", "soon"], ["--steps", '"soon"', "auto"]),
     (["--steps", "-3"], ["--steps", '"-3"']),
     (["--tolerance", "0"], ["--tolerance", '"0"', "1e-14"]),
+    (["--lag-tolerance", "-1"], ["--lag-tolerance", '"-1"', "0 to 10"]),
+    (["--step-tolerance", "inf"], ["--step-tolerance", '"inf"']),
+    (["--mesh-error-every", "0.5"], ["--mesh-error-every", '"0.5"', "whole number"]),
     (["--travel", "0"], ["--travel", '"0"', "1 to 500"]),
     (["--unknown"], ["--unknown", "--help"]),
     (["--fric", "coulomb"], ["--fric"]),
@@ -54,7 +58,7 @@ for options, words in [
         check(word in done.stderr, (options, word, done.stderr))
 
 done = run("--help")
-check(done.returncode == 0 and all(f"--{o}" in done.stdout for o in "friction mu solver refine steps tolerance output json quiet list help".split()), done.stdout)
+check(done.returncode == 0 and all(f"--{o}" in done.stdout for o in "friction mu solver refine steps tolerance lag-tolerance step-tolerance mesh-error-every output json quiet list help".split()), done.stdout)
 
 # Every listed pair runs and keeps the contract; its answer does not depend on the solver.
 listed = dict(line.split(":") for line in run("--list").stdout.splitlines())
@@ -87,6 +91,8 @@ for friction, solvers in listed.items():
         check((result["max_slip_mm"] == 0) == (friction == "frictionless"), result["max_slip_mm"])
         check((result["max_lag"] > 0) == ("quasi" in friction or "lag" in friction), result["max_lag"])
         check(0 < result["max_penetration_mm"] < 0.1, result["max_penetration_mm"])
+        check((result["estimated_error_lag"] > 1e-4) == ("quasi" in friction), result["estimated_error_lag"])
+        check(all(0 < result[f"estimated_error_{e}"] < 0.3 for e in ("time", "penetration", "space")), result)
         forces.append(result["final_force_N"])
     check(max(forces) - min(forces) < 1e-6 * max(forces), (friction, forces))
 

@@ -13,7 +13,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 program = sys.argv[1]
 EXPECTED_POINT = {"displacement": 3, "contact_force": 3, "contact_traction": 3, "slip": 1, "gap": 1}
-EXPECTED_CELL = {"cauchy_stress": 6, "von_mises_stress": 1, "pressure": 1, "plastic_strain": 1}
+EXPECTED_CELL = {"cauchy_stress": 6, "von_mises_stress": 1, "pressure": 1, "plastic_strain": 1, "stress_error": 1}
 
 
 def read(path):
