@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <random>
+#include <sstream>
 
 #include "icosphere.hpp"
 
@@ -81,6 +82,7 @@ TEST_CASE("dialects") {
   std::string plus = "solid\n" + facet + "endsolid\n";
   plus.replace(plus.find("1 0 0"), 5, "+1.5e+0 0 -0");
   CHECK(complaint(plus) == "none");
+  CHECK(complaint("SOLID\n" + facet + "ENDSOLID\n") == "none");
   // A binary file may call itself solid.
   const File file;
   io::write_stl(file.path, icosphere(0));
@@ -112,6 +114,22 @@ TEST_CASE("corners that coincide become one vertex") {
       "all triangles are degenerate",
       "solid\nfacet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid\n");
   CHECK_THROWS_AS((void)io::read_stl(needle.path, -1), std::invalid_argument);
+}
+
+TEST_CASE("surfaces of any size") {
+  for (const char* size : {"1e-200", "1e-100", "1e100", "1e200", "1.7e308"})
+    for (const Real merge : {0.0, 1e-300, 1e-6}) {
+      std::istringstream in(std::string("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex ") + size +
+                            " 0 0\nvertex 0 0 " + size + "\nendloop\nendfacet\nendsolid\n");
+      if (std::string(size) == "1.7e308") {
+        CHECK_THROWS_WITH_AS((void)io::read_stl(in, "a.stl", merge),
+                             "a.stl: the surface is larger than a number can tell", std::runtime_error);
+        continue;
+      }
+      const auto surface = io::read_stl(in, "a.stl", merge);
+      CHECK(surface.vertices.size() == 3);
+      CHECK(surface.corners.size() == 1);
+    }
 }
 
 TEST_CASE("ASCII files that are wrong") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/geometry/triangles.hpp>
+#include <stickslip/io/text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,12 +14,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <istream>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace stickslip::io {
@@ -28,86 +29,47 @@ namespace detail {
 // Corners, three a triangle, as a file of triangles lists them: each with vertices of its own.
 using Corners = std::vector<Vec<Real, 3>>;
 
-// The words of a text with the number of the line that each stands in.
-class StlWords {
+inline std::string lower(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return small;
+}
+
+// Words of an ASCII STL file, in which capitals and small letters are the same.
+class StlWords : public Text {
  public:
-  StlWords(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error(name_ + ", line " + std::to_string(line_) + ": " + what);
-  }
-  // The next word in lower case, empty at the end of the file.
-  std::string next() {
-    std::size_t ahead = at_;
-    while (ahead < text_.size() && blank(text_[ahead])) line_ += text_[ahead++] == '\n';
-    at_ = ahead;
-    while (at_ < text_.size() && !blank(text_[at_])) ++at_;
-    std::string word(text_.substr(ahead, at_ - ahead));
-    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return word;
-  }
+  using Text::Text;
+  std::string next() { return lower(word()); }
   void expect(const char* wanted) {
-    const std::string word = next();
-    if (word != wanted) unexpected(word, std::string("\"") + wanted + "\"");
+    const std::string found = next();
+    if (found != wanted) unexpected(found, std::string("\"") + wanted + "\"");
   }
-  [[noreturn]] void unexpected(const std::string& word, const std::string& wanted) const {
-    if (word.empty()) fail("the file ends where " + wanted + " should stand");
-    fail("found \"" + shown(word) + "\" where " + wanted + " should stand");
-  }
-  Real number() {
-    const std::string word = next();
-    const char *first = word.data() + (word.starts_with('+') ? 1 : 0), *last = word.data() + word.size();
-    Real value = 0;
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error == std::errc::result_out_of_range) fail("the number \"" + shown(word) + "\" is out of range");
-    if (error != std::errc() || end != last) unexpected(word, "a number");
-    if (!std::isfinite(value)) fail("the number \"" + shown(word) + "\" is not finite");
-    return value;
-  }
-  void skip_line() {
-    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
-  }
-
- private:
-  static bool blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\f' || c == '\v'; }
-  // Garbage may be long and may not be text.
-  static std::string shown(const std::string& word) {
-    std::string text = word.substr(0, 20);
-    for (char& c : text)
-      if (!std::isprint(static_cast<unsigned char>(c))) c = '?';
-    return word.size() > 20 ? text + "..." : text;
-  }
-
-  std::string name_;
-  std::string_view text_;
-  std::size_t at_ = 0;
-  std::size_t line_ = 1;
 };
 
-inline Corners read_ascii_stl(const std::string& name, std::string_view text) {
-  StlWords words(name, text);
+inline Corners read_ascii_stl(const std::string& name, std::string_view bytes) {
+  StlWords words(name, bytes);
   Corners corners;
   words.expect("solid");
-  words.skip_line();  // its name
+  words.rest_of_line();  // its name
   for (;;) {
     std::string word = words.next();
     if (word == "endsolid") {
-      words.skip_line();
+      words.rest_of_line();
       word = words.next();
       if (word.empty()) return corners;
       if (word != "solid") words.unexpected(word, "\"solid\" or the end of the file");
-      words.skip_line();
+      words.rest_of_line();
       continue;
     }
     if (word != "facet") words.unexpected(word, "\"facet\" or \"endsolid\"");
     words.expect("normal");
-    for (int i = 0; i < 3; ++i) words.number();  // the corners' order says more
+    for (int i = 0; i < 3; ++i) words.real(words.word());  // the corners' order says more
     words.expect("outer");
     words.expect("loop");
     for (int k = 0; k < 3; ++k) {
       words.expect("vertex");
       Vec<Real, 3> x;
-      for (int i = 0; i < 3; ++i) x[i] = words.number();
+      for (int i = 0; i < 3; ++i) x[i] = words.real(words.word());
       corners.push_back(x);
     }
     words.expect("endloop");
@@ -141,8 +103,9 @@ inline Corners read_binary_stl(const std::string& name, std::string_view bytes) 
   return corners;
 }
 
-// Gives corners closer than `tolerance` one vertex; leaves out triangles of which two corners fall together.
-inline rigid::Triangles merge(const Corners& corners, Real tolerance) {
+// Gives corners in a box of diagonal `extent` one vertex if they are closer than `tolerance`; leaves out triangles of
+// which two corners fall together.
+inline rigid::Triangles merge(const Corners& corners, Real extent, Real tolerance) {
   struct Hash {
     std::size_t operator()(const std::array<std::int64_t, 3>& cell) const {
       std::uint64_t h = 0;
@@ -154,7 +117,8 @@ inline rigid::Triangles merge(const Corners& corners, Real tolerance) {
   std::unordered_multimap<std::array<std::int64_t, 3>, Index, Hash> cells;
   Vec<Real, 3> origin = corners[0];
   for (const auto& x : corners) origin = origin.cwiseMin(x);
-  const Real size = 4 * tolerance;
+  // A cell is no smaller than its numbers can count, however small the tolerance.
+  const Real size = std::max(4 * tolerance, 1e-12 * extent);
   const auto cell = [&](const Vec<Real, 3>& x) {
     std::array<std::int64_t, 3> c{};
     for (int i = 0; i < 3; ++i)
@@ -169,7 +133,7 @@ inline rigid::Triangles merge(const Corners& corners, Real tolerance) {
         for (auto k = low[2]; k <= high[2]; ++k) {
           const auto [first, last] = cells.equal_range({i, j, k});
           for (auto at = first; at != last; ++at)
-            if ((out.vertices[static_cast<std::size_t>(at->second)] - x).norm() <= tolerance) return at->second;
+            if ((out.vertices[static_cast<std::size_t>(at->second)] - x).stableNorm() <= tolerance) return at->second;
         }
     const Index fresh = static_cast<Index>(out.vertices.size());
     out.vertices.push_back(x);
@@ -184,42 +148,28 @@ inline rigid::Triangles merge(const Corners& corners, Real tolerance) {
   return out;
 }
 
-}  // namespace detail
-
-/// Reads a surface from an STL file, ASCII or binary, whichever it is. Corners closer to each other than `merge` times
-/// the diagonal of the surface's box become one vertex; triangles that lose a side by it are left out. The order of the
-/// corners says where outside is; the normals in the file are not looked at. Throws std::runtime_error, one sentence
-/// with the file and the line (ASCII) or byte (binary), if the file cannot be read or is not what it claims to be.
-/// Needs memory in proportion to the file, never to a count that the file merely claims.
-inline rigid::Triangles read_stl(const std::filesystem::path& path, Real merge = 1e-6) {
-  static_assert(std::endian::native == std::endian::little, "binary STL files hold little-endian numbers");
+inline void check_merge(Real merge) {
   if (!(merge >= 0 && merge < 0.1)) throw std::invalid_argument("STL: the merge tolerance must lie in [0, 0.1)");
-  const std::string name = path.string();
-  std::error_code error;
-  const auto size = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
-  std::ifstream in(path, std::ios::binary);
-  if (error || !in || !std::filesystem::is_regular_file(path, error)) throw std::runtime_error("cannot read " + name);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!in || static_cast<std::uintmax_t>(in.gcount()) != size) throw std::runtime_error("cannot read " + name);
+}
 
-  const std::string_view view(bytes);
+inline rigid::Triangles read_stl(std::string_view view, const std::string& name, Real merge_tolerance) {
+  static_assert(std::endian::native == std::endian::little, "binary STL files hold little-endian numbers");
   const std::size_t first = view.find_first_not_of(" \t\r\n");
-  const bool solid = first != std::string_view::npos && view.substr(first, 5) == "solid";
-  const bool whole = view.size() >= detail::stl_header &&
-                     view.size() - detail::stl_header == detail::stl_triangle * std::size_t(detail::stl_count(view));
+  const bool solid = first != std::string_view::npos && lower(view.substr(first, 5)) == "solid";
+  const bool whole =
+      view.size() >= stl_header && view.size() - stl_header == stl_triangle * std::size_t(stl_count(view));
   // Some binary files begin with "solid", but none without zero bytes.
   const bool ascii = solid && !whole && view.find('\0') == std::string_view::npos;
   if (!ascii && !whole) {
-    if (view.size() < detail::stl_header)
+    if (view.size() < stl_header)
       throw std::runtime_error(name + ": neither an ASCII STL file, which begins with \"solid\", nor a binary one, " +
                                "which has a header of 84 bytes; this has " + std::to_string(view.size()));
-    const std::uint64_t count = detail::stl_count(view);
+    const std::uint64_t count = stl_count(view);
     throw std::runtime_error(name + ", byte 80: claims " + std::to_string(count) + " triangles, which take " +
-                             std::to_string(detail::stl_header + detail::stl_triangle * count) +
-                             " bytes, but the file has " + std::to_string(view.size()));
+                             std::to_string(stl_header + stl_triangle * count) + " bytes, but the file has " +
+                             std::to_string(view.size()));
   }
-  const detail::Corners corners = ascii ? detail::read_ascii_stl(name, view) : detail::read_binary_stl(name, view);
+  const Corners corners = ascii ? read_ascii_stl(name, view) : read_binary_stl(name, view);
   if (corners.empty()) throw std::runtime_error(name + ": there are no triangles");
   if (corners.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
     throw std::runtime_error(name + ": more corners than can be numbered");
@@ -228,9 +178,30 @@ inline rigid::Triangles read_stl(const std::filesystem::path& path, Real merge =
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  rigid::Triangles surface = detail::merge(corners, merge * (high - low).stableNorm());
+  const Real extent = (high - low).stableNorm();
+  if (!std::isfinite(extent)) throw std::runtime_error(name + ": the surface is larger than a number can tell");
+  rigid::Triangles surface = merge(corners, extent, merge_tolerance * extent);
   if (surface.corners.empty()) throw std::runtime_error(name + ": all triangles are degenerate");
   return surface;
+}
+
+}  // namespace detail
+
+/// Reads a surface from an STL file, ASCII or binary, whichever it is; `name` is what complaints call it. Corners
+/// closer to each other than `merge` times the diagonal of the surface's box become one vertex; triangles that lose a
+/// side by it are left out. The order of the corners says where outside is; the normals in the file are not looked at.
+/// Throws std::runtime_error, one sentence with the file and the line (ASCII) or byte (binary), if the file cannot be
+/// read or is not what it claims to be. Needs memory in proportion to the file, never to a count that the file merely
+/// claims.
+inline rigid::Triangles read_stl(std::istream& in, const std::string& name, Real merge = 1e-6) {
+  detail::check_merge(merge);
+  return detail::read_stl(detail::read_all(in, name), name, merge);
+}
+
+/// The same from a file on the disc.
+inline rigid::Triangles read_stl(const std::filesystem::path& path, Real merge = 1e-6) {
+  detail::check_merge(merge);
+  return detail::read_stl(detail::read_all(path), path.string(), merge);
 }
 
 enum class StlFormat { binary, ascii };
