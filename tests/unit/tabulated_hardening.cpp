@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <stickslip/io/flow_points.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/tabulated_hardening.hpp>
 #include <stickslip/verify/material.hpp>
@@ -7,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <sstream>
 #include <string>
 
 namespace {
@@ -75,6 +77,13 @@ TEST_CASE("tangent and memory of plastic flow along a table") {
     CHECK(verify::material_memory(metal, p) < 1e-11);
   }
 }
+TEST_CASE("a table from a file") {
+  std::istringstream in("strain, stress\n0, 100\n0.01, 140\n0.05, 190\n0.2, 230\n");
+  const FiniteJ2<TabulatedHardening> metal{
+      .young = 70e3, .poisson = 0.33, .hardening = io::read_flow_points(in, "steel.csv")};
+  CHECK_NOTHROW(metal.validate());
+  CHECK(metal.hardening.flow(0.05).value == doctest::Approx(190).epsilon(1e-14));
+}
 TEST_CASE("a wrong table is refused in a sentence") {
   const auto refuses = [](const std::vector<FlowPoint>& table, const char* sentence) {
     CHECK_THROWS_WITH_AS(TabulatedHardening{table}, sentence, std::invalid_argument);
@@ -84,6 +93,10 @@ TEST_CASE("a wrong table is refused in a sentence") {
   refuses({{0, 1}, {1, 2}, {1, 3}, {3, 4}}, "tabulated hardening: the plastic strains must ascend, see point 3");
   refuses({{0, 1}, {1, 2}, {NAN, 3}, {3, 4}}, "tabulated hardening: the plastic strains must ascend, see point 3");
   refuses({{0, 1}, {1, 0}, {2, 3}, {3, 4}}, "tabulated hardening: the flow stresses must be positive, see point 2");
+  // Slopes that no number can hold.
+  refuses({{0, 1}, {1e-320, 2}, {2, 3}, {3, 4}},
+          "tabulated hardening: plastic strains beyond 1e30 or steps of them below 1e-30 cannot be computed with, see "
+          "point 2");
   // A material whose table was left out says so before any work.
   CHECK_THROWS_WITH_AS((FiniteJ2<TabulatedHardening>{.young = 1, .poisson = 0.3}.validate()),
                        "tabulated hardening: the table needs at least four points", std::invalid_argument);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/material/flow_points.hpp>
 #include <stickslip/policy/material.hpp>
 
 #include <math.h>  // Boost 1.74 calls isnan without a namespace
@@ -15,12 +16,6 @@
 #include <vector>
 
 namespace stickslip {
-
-/// A measured point of a flow curve.
-struct FlowPoint {
-  Real strain = 0;  ///< accumulated plastic strain [-]
-  Real stress = 0;  ///< flow stress there [stress]
-};
 
 /// Flow stress behind the last point of a table.
 enum class BeyondTable {
@@ -64,17 +59,10 @@ class TabulatedHardening {
     return work_[k] + piece(k, p);
   }
   void validate() const {
-    if (points_.size() < 4) throw std::invalid_argument("tabulated hardening: the table needs at least four points");
-    if (points_[0].strain != 0)
-      throw std::invalid_argument("tabulated hardening: the first point must lie at zero plastic strain");
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      if (!std::isfinite(points_[k].strain) || (k > 0 && !(points_[k].strain > points_[k - 1].strain)))
-        throw std::invalid_argument("tabulated hardening: the plastic strains must ascend, see point " +
-                                    std::to_string(k + 1));
-      if (!(points_[k].stress > 0 && std::isfinite(points_[k].stress)))
-        throw std::invalid_argument("tabulated hardening: the flow stresses must be positive, see point " +
-                                    std::to_string(k + 1));
-    }
+    if (const auto fault = fault_of(points_))
+      throw std::invalid_argument(
+          "tabulated hardening: " + fault->what +
+          (fault->point.value_or(0) > 0 ? ", see point " + std::to_string(*fault->point + 1) : ""));
   }
 
  private:
