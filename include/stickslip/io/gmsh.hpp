@@ -1,0 +1,527 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/element/hex8.hpp>
+#include <stickslip/element/quad4.hpp>
+#include <stickslip/io/text.hpp>
+#include <stickslip/mesh/mesh.hpp>
+#include <stickslip/tensor/tensor.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <istream>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace stickslip::io {
+
+namespace detail {
+
+// Gmsh's elements of first order.
+struct GmshType {
+  int number, dim;
+  std::size_t nodes;
+  const char *one, *many;
+};
+inline constexpr std::array<GmshType, 8> gmsh_types{{{15, 0, 1, "a point", "points"},
+                                                     {1, 1, 2, "a line", "lines"},
+                                                     {2, 2, 3, "a triangle", "triangles"},
+                                                     {3, 2, 4, "a quadrilateral", "quadrilaterals"},
+                                                     {4, 3, 4, "a tetrahedron", "tetrahedra"},
+                                                     {5, 3, 8, "a hexahedron", "hexahedra"},
+                                                     {6, 3, 6, "a prism", "prisms"},
+                                                     {7, 3, 5, "a pyramid", "pyramids"}}};
+
+// What a Gmsh file says, before anybody knows whether it is a mesh.
+struct GmshFile {
+  using Tag = std::int64_t;
+  struct Node {
+    Tag tag;
+    Vec<Real, 3> x;
+    std::size_t line;
+  };
+  struct Element {
+    const GmshType* type;
+    Tag entity;  // format 2.2: the physical group, which is all that the file tells
+    std::array<Tag, 8> nodes;
+    std::size_t line;
+  };
+  using Key = std::pair<int, Tag>;  // dimension, number
+
+  std::vector<Node> nodes;
+  std::vector<Element> elements;
+  std::map<Key, std::vector<Tag>> groups;  // of an entity
+  std::map<Key, std::string> names;        // of a group
+};
+
+class GmshParser : public Text {
+ public:
+  using Text::Text;
+
+  GmshFile read() {
+    for (std::string_view section = word(); !section.empty(); section = word()) {
+      if (section.front() != '$') unexpected(section, "a section, such as \"$Nodes\",");
+      if (version_ == Version::unknown && section != "$MeshFormat" && section != "$Comments")
+        fail("found \"" + shown(section) + "\" where a Gmsh file has \"$MeshFormat\"");
+      if (section == "$MeshFormat")
+        format();
+      else if (section == "$PhysicalNames")
+        names();
+      else if (section == "$Entities")
+        entities();
+      else if (section == "$Nodes")
+        version_ == Version::v2 ? nodes_v2() : nodes();
+      else if (section == "$Elements")
+        version_ == Version::v2 ? elements_v2() : elements();
+      else {
+        skip(section);
+        continue;
+      }
+      if (!seen_.insert(std::string(section)).second) fail("the section " + std::string(section) + " is there twice");
+      const std::string end = "$End" + std::string(section.substr(1));
+      if (const std::string_view found = word(); found != end) unexpected(found, "\"" + end + "\"");
+    }
+    if (version_ == Version::unknown) fail("the file ends where a Gmsh file has \"$MeshFormat\"");
+    return std::move(file_);
+  }
+
+ private:
+  using Tag = GmshFile::Tag;
+  enum class Version { unknown, v2, v4 };
+  // Each of an entity's elements is in all of its groups: a file could ask for the product of both.
+  static constexpr Tag most_groups = 32;
+  static constexpr Tag largest = std::numeric_limits<Tag>::max();
+
+  Tag count(const char* wanted) { return integer<Tag>(word(), 0, largest, wanted); }
+  Tag tag(const char* wanted) { return integer<Tag>(word(), -largest, largest, wanted); }
+  int dimension(const char* wanted) { return integer<int>(word(), 0, 3, wanted); }
+  // Groups that are meant to run against an entity have a negative number.
+  static Tag group(Tag number) { return number < 0 ? -number : number; }
+  // Counts are believed for as long as there is something to read.
+  template <class Read>
+  static void times(Tag n, Read&& read) {
+    for (Tag i = 0; i < n; ++i) read();
+  }
+
+  void format() {
+    const std::string_view version = word();
+    if (version != "4.1" && version != "2.2")
+      fail("this is Gmsh's format \"" + shown(version) + "\"; 4.1 and 2.2 can be read (in Gmsh: Mesh.MshFileVersion)");
+    version_ = version == "2.2" ? Version::v2 : Version::v4;
+    if (integer<int>(word(), 0, 1, "the kind of file") == 1)
+      fail("the file is binary; save it as ASCII (in Gmsh: Mesh.Binary = 0)");
+    count("the size of numbers");
+  }
+
+  void skip(std::string_view section) {
+    const std::string end = "$End" + std::string(section.substr(1));
+    const std::size_t begin = line();
+    for (std::string_view found = word(); found != end; found = word())
+      if (found.empty()) fail(begin, "the section " + shown(section) + " has no end");
+  }
+
+  void names() {
+    times(count("the number of names"), [&] {
+      const int dim = dimension("the dimension of a group");
+      const Tag number = group(tag("the number of a group"));
+      const std::string_view rest = rest_of_line();
+      const std::size_t first = rest.find('"'), last = rest.find('"', first + 1);
+      if (first == rest.npos || last == rest.npos) fail("the name of a group must stand in quotation marks");
+      file_.names[{dim, number}] = rest.substr(first + 1, last - first - 1);
+    });
+  }
+
+  void entities() {
+    std::array<Tag, 4> counts{};
+    for (Tag& n : counts) n = count("a number of entities");
+    for (int dim = 0; dim < 4; ++dim)
+      times(counts[static_cast<std::size_t>(dim)], [&] {
+        const Tag number = tag("the number of an entity");
+        for (int i = 0; i < (dim == 0 ? 3 : 6); ++i) real(word(), "a coordinate of an entity");
+        const Tag groups = count("a number of groups");
+        if (groups > most_groups)
+          fail("an entity belongs to " + std::to_string(groups) + " groups, more than the " +
+               std::to_string(most_groups) + " that can be read");
+        std::vector<Tag> list;
+        times(groups, [&] { list.push_back(group(tag("the number of a group"))); });
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        if (!list.empty()) file_.groups[{dim, number}] = std::move(list);
+        if (dim > 0) times(count("a number of entities"), [&] { tag("the number of an entity"); });
+      });
+  }
+
+  void add_node(Tag number, const Vec<Real, 3>& x, std::size_t at) { file_.nodes.push_back({number, x, at}); }
+  Vec<Real, 3> place() {
+    Vec<Real, 3> x;
+    for (Real& component : x) component = real(word(), "a coordinate");
+    return x;
+  }
+
+  void nodes() {
+    const Tag blocks = count("the number of blocks"), total = count("the number of nodes");
+    for (int i = 0; i < 2; ++i) count("the number of a node");  // the lowest and the highest
+    times(blocks, [&] {
+      const int dim = dimension("the dimension of a block of nodes");
+      tag("the number of an entity");
+      const bool parametric = integer<int>(word(), 0, 1, "whether there are parameters") == 1;
+      const Tag here = count("the number of nodes in a block");
+      const std::size_t first = file_.nodes.size();
+      times(here, [&] { add_node(count("the number of a node"), Vec<Real, 3>::Zero(), line()); });
+      for (std::size_t n = first; n < file_.nodes.size(); ++n) {
+        file_.nodes[n].x = place();
+        file_.nodes[n].line = line();
+        if (parametric)
+          for (int i = 0; i < dim; ++i) real(word(), "a parameter of a node");
+      }
+    });
+    check_total(total, file_.nodes.size(), "nodes");
+  }
+
+  void nodes_v2() {
+    times(count("the number of nodes"), [&] {
+      const Tag number = count("the number of a node");
+      const std::size_t at = line();
+      add_node(number, place(), at);
+    });
+  }
+
+  const GmshType& type() {
+    const int number = integer<int>(word(), 1, std::numeric_limits<int>::max(), "the type of an element");
+    for (const GmshType& t : gmsh_types)
+      if (t.number == number) return t;
+    fail("elements of type " + std::to_string(number) +
+         " cannot be read, only those of first order (in Gmsh: Mesh.ElementOrder = 1)");
+  }
+  void element_nodes(GmshFile::Element element) {
+    for (std::size_t a = 0; a < element.type->nodes; ++a) element.nodes[a] = count("the number of a node");
+    file_.elements.push_back(element);
+  }
+
+  void elements() {
+    const Tag blocks = count("the number of blocks"), total = count("the number of elements");
+    for (int i = 0; i < 2; ++i) count("the number of an element");  // the lowest and the highest
+    times(blocks, [&] {
+      const int dim = dimension("the dimension of a block of elements");
+      const Tag entity = tag("the number of an entity");
+      const GmshType& kind = type();
+      if (kind.dim != dim) fail(std::string(kind.one) + " cannot have dimension " + std::to_string(dim));
+      times(count("the number of elements in a block"), [&] {
+        count("the number of an element");
+        element_nodes({&kind, entity, {}, line()});
+      });
+    });
+    check_total(total, file_.elements.size(), "elements");
+  }
+
+  void elements_v2() {
+    times(count("the number of elements"), [&] {
+      count("the number of an element");
+      const std::size_t at = line();
+      const GmshType& kind = type();
+      Tag physical = 0;
+      const Tag tags = count("the number of tags");
+      for (Tag i = 0; i < tags; ++i) {
+        const Tag value = tag("a tag of an element");
+        if (i == 0) physical = group(value);
+      }
+      if (physical != 0) file_.groups[{kind.dim, physical}] = {physical};
+      element_nodes({&kind, physical, {}, at});
+    });
+  }
+
+  void check_total(Tag claimed, std::size_t found, const char* what) const {
+    if (static_cast<std::size_t>(claimed) != found)
+      fail("the blocks have " + std::to_string(found) + ' ' + what + ", the section claims " + std::to_string(claimed));
+  }
+
+  GmshFile file_;
+  Version version_ = Version::unknown;
+  std::set<std::string> seen_;
+};
+
+// What differs between the plane and space.
+template <int dim>
+struct GmshCells;
+template <>
+struct GmshCells<2> {
+  using Cell = Quad4;
+  using Shape = Planar;
+  static constexpr int type = 3, facet_type = 1;
+  static constexpr const char *facet = "edge", *nameless[] = {"point ", "curve "};
+  // Counter-clockwise.
+  static constexpr std::array<std::array<std::size_t, 2>, 4> facets{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+  static constexpr std::array<std::size_t, 4> turned{0, 3, 2, 1};
+  using Facet = std::array<Index, 2>;
+  static Facet reversed(const Facet& f) { return {f[1], f[0]}; }
+  static Facet canonical(const Facet& f) { return f; }
+};
+template <>
+struct GmshCells<3> {
+  using Cell = Hex8;
+  using Shape = Spatial;
+  static constexpr int type = 5, facet_type = 3;
+  static constexpr const char *facet = "face", *nameless[] = {"point ", "curve ", "surface "};
+  // Counter-clockwise seen from outside.
+  static constexpr std::array<std::array<std::size_t, 4>, 6> facets{
+      {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+  static constexpr std::array<std::size_t, 8> turned{4, 5, 6, 7, 0, 1, 2, 3};
+  using Facet = std::array<Index, 4>;
+  static Facet reversed(const Facet& f) { return {f[0], f[3], f[2], f[1]}; }
+  // The same walk, begun at the lowest number.
+  static Facet canonical(Facet f) {
+    std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+    return f;
+  }
+};
+
+template <int dim>
+class GmshMesh {
+ public:
+  using Traits = GmshCells<dim>;
+  static constexpr int nodes_per_cell = Traits::Cell::nodes;
+  using MeshType = Mesh<dim, nodes_per_cell>;
+
+  GmshMesh(const GmshFile& file, const Text& text) : file_(file), text_(text) {}
+
+  MeshType make() {
+    sort_tags();
+    add_nodes();
+    add_cells();
+    connect();
+    add_sides();
+    return std::move(mesh_);
+  }
+
+ private:
+  using Element = GmshFile::Element;
+  using Facet = typename Traits::Facet;
+  static constexpr Index unused = -1, used = -2;
+
+  // A facet of a cell; `key` has its nodes in ascending order, so that both cells that share it find it.
+  struct CellFacet {
+    Facet key, walk;
+    std::size_t line;
+  };
+
+  static const GmshType& cell_type() {
+    return *std::find_if(gmsh_types.begin(), gmsh_types.end(), [](const auto& t) { return t.number == Traits::type; });
+  }
+  static Facet key_of(Facet f) {
+    std::sort(f.begin(), f.end());
+    return f;
+  }
+
+  void sort_tags() {
+    for (std::size_t n = 0; n < file_.nodes.size(); ++n) places_.push_back({file_.nodes[n].tag, n});
+    std::sort(places_.begin(), places_.end());
+    for (std::size_t n = 1; n < places_.size(); ++n)
+      if (places_[n].first == places_[n - 1].first)
+        text_.fail(file_.nodes[places_[n].second].line, "there are two nodes " + std::to_string(places_[n].first));
+  }
+  // Place in the file of the node that an element names.
+  std::size_t place(GmshFile::Tag tag, std::size_t line) const {
+    const auto found = std::lower_bound(places_.begin(), places_.end(), std::pair<GmshFile::Tag, std::size_t>(tag, 0));
+    if (found == places_.end() || found->first != tag) text_.fail(line, "there is no node " + std::to_string(tag));
+    return found->second;
+  }
+
+  // Nodes of cells alone, in the order of the file: the others would have no stiffness.
+  void add_nodes() {
+    number_.assign(file_.nodes.size(), unused);
+    std::size_t cells = 0;
+    for (const Element& e : file_.elements) {
+      if (e.type->dim < dim) continue;
+      if (e.type->dim > dim)
+        text_.fail(e.line, std::string(e.type->one) + " has no place in a mesh in the plane; read it in space");
+      if (e.type->number != Traits::type)
+        text_.fail(e.line, std::string(e.type->one) + "; all cells must be " + cell_type().many +
+                               (dim == 2 ? " (in Gmsh: Mesh.RecombineAll = 1)" : ""));
+      for (std::size_t a = 0; a < e.type->nodes; ++a) number_[place(e.nodes[a], e.line)] = used;
+      ++cells;
+    }
+    if (cells == 0)
+      text_.fail_whole(std::string("there are no ") + cell_type().many +
+                       "; Gmsh saves what belongs to a physical group, or all with Mesh.SaveAll = 1");
+    const GmshFile::Node* first = nullptr;
+    Real extent = 0, height = 0;
+    const GmshFile::Node* highest = nullptr;
+    for (std::size_t n = 0; n < file_.nodes.size(); ++n) {
+      if (number_[n] == unused) continue;
+      const GmshFile::Node& node = file_.nodes[n];
+      if (mesh_.nodes.size() >= static_cast<std::size_t>(std::numeric_limits<Index>::max() / dim))
+        text_.fail(node.line, "more nodes than can be numbered");
+      number_[n] = mesh_.node_count();
+      mesh_.nodes.push_back(node.x.template head<dim>());
+      if (!first) first = highest = &node;
+      extent = std::max(extent, (node.x - first->x).template head<2>().cwiseAbs().maxCoeff());
+      if (const Real h = std::abs(node.x[2] - first->x[2]); h > height) height = h, highest = &node;
+    }
+    if (dim == 2 && height > 1e-9 * extent)
+      text_.fail(highest->line, "node " + std::to_string(highest->tag) + " lies outside the plane of node " +
+                                    std::to_string(first->tag) + "; a plane mesh has one z");
+  }
+
+  void add_cells() {
+    const auto rule = Traits::Cell::quadrature();
+    for (const Element& e : file_.elements) {
+      if (e.type->dim != dim) continue;
+      typename decltype(mesh_.cells)::value_type cell{};
+      Mat<Real, nodes_per_cell, dim> X;
+      for (std::size_t a = 0; a < cell.size(); ++a) {
+        cell[a] = number_[place(e.nodes[a], e.line)];
+        if (std::find(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(a), cell[a]) !=
+            cell.begin() + static_cast<std::ptrdiff_t>(a))
+          text_.fail(e.line, "the cell names node " + std::to_string(e.nodes[a]) + " twice");
+        X.row(static_cast<int>(a)) = mesh_.nodes[static_cast<std::size_t>(cell[a])].transpose();
+      }
+      std::size_t positive = 0, negative = 0;
+      for (const auto& point : rule) {
+        const Mat<Real, dim> block = X.transpose() * Traits::Cell::gradient(point.xi);
+        auto jacobian = Tensor<Real, typename Traits::Shape>::identity();
+        for (int i = 0; i < dim; ++i)
+          for (int j = 0; j < dim; ++j) jacobian(i, j) = block(i, j);
+        const Real volume = determinant(jacobian);
+        positive += volume > 0 && std::isfinite(volume);
+        negative += volume < 0 && std::isfinite(volume);
+      }
+      if (negative == rule.size()) {
+        const auto as_read = cell;
+        for (std::size_t a = 0; a < cell.size(); ++a) cell[a] = as_read[Traits::turned[a]];
+      } else if (positive != rule.size()) {
+        text_.fail(e.line, std::string("the cell is folded, flat or beyond all size: the Jacobian of ") +
+                               cell_type().one + " must have one sign at all quadrature points");
+      }
+      mesh_.cells.push_back(cell);
+      for (const auto& local : Traits::facets) {
+        Facet walk{};
+        for (std::size_t k = 0; k < walk.size(); ++k) walk[k] = cell[local[k]];
+        facets_.push_back({key_of(walk), walk, e.line});
+      }
+    }
+  }
+
+  // Cells side by side walk along their common facet in opposite directions.
+  void connect() {
+    std::sort(facets_.begin(), facets_.end(),
+              [](const CellFacet& a, const CellFacet& b) { return a.key != b.key ? a.key < b.key : a.line < b.line; });
+    for (std::size_t i = 1; i < facets_.size(); ++i) {
+      const CellFacet &a = facets_[i - 1], &b = facets_[i];
+      if (a.key != b.key) continue;
+      const std::string first = std::to_string(a.line);
+      if (i > 1 && facets_[i - 2].key == a.key)
+        text_.fail(b.line, std::string("the cell is the third at one ") + Traits::facet + ", see line " + first);
+      if (Traits::canonical(a.walk) != Traits::canonical(Traits::reversed(b.walk)))
+        text_.fail(b.line,
+                   "the cell and that of line " + first + " lie on the same side of their common " + Traits::facet);
+    }
+  }
+
+  // The name of the side that a group becomes.
+  std::string name_of(const GmshFile::Key& group) const {
+    const auto found = file_.names.find(group);
+    if (found != file_.names.end() && !found->second.empty()) return found->second;
+    return Traits::nameless[group.first] + std::to_string(group.second);
+  }
+
+  void add_sides() {
+    std::map<GmshFile::Key, std::vector<const Element*>> members;
+    for (const Element& e : file_.elements) {
+      if (e.type->dim >= dim) continue;
+      const auto groups = file_.groups.find({e.type->dim, e.entity});
+      if (groups == file_.groups.end()) continue;
+      for (const GmshFile::Tag group : groups->second) members[{e.type->dim, group}].push_back(&e);
+    }
+    for (const auto& [group, elements] : members) {
+      const std::string name = name_of(group);
+      const auto [at, fresh] = mesh_.sides.try_emplace(name);
+      if (!fresh) text_.fail(elements[0]->line, "two groups are called \"" + shown(name, 60) + "\"");
+      fill(at->second, elements, group.first, name);
+    }
+  }
+
+  void fill(Side<dim>& side, const std::vector<const Element*>& elements, int group_dim, const std::string& name) {
+    const std::string whose = " of the group \"" + shown(name, 60) + "\"";
+    std::set<Facet> given;
+    std::set<Index> listed;
+    const auto list = [&](Index node) {
+      if (listed.insert(node).second) side.nodes.push_back(node);
+    };
+    for (const Element* e : elements) {
+      std::array<Index, 8> nodes{};
+      for (std::size_t a = 0; a < e->type->nodes; ++a) {
+        nodes[a] = number_[place(e->nodes[a], e->line)];
+        if (nodes[a] == unused)
+          text_.fail(e->line, "node " + std::to_string(e->nodes[a]) + whose + " belongs to no cell");
+      }
+      if (group_dim < dim - 1) {
+        for (std::size_t a = 0; a < e->type->nodes; ++a) list(nodes[a]);
+        continue;
+      }
+      if (e->type->number != Traits::facet_type)
+        text_.fail(e->line, std::string(e->type->one) + whose + " can be no " + Traits::facet + " of a cell");
+      Facet facet{};
+      std::copy_n(nodes.begin(), facet.size(), facet.begin());
+      const Facet key = key_of(facet);
+      const auto found = std::lower_bound(facets_.begin(), facets_.end(), key,
+                                          [](const CellFacet& f, const Facet& k) { return f.key < k; });
+      const std::string which = std::string("the ") + Traits::facet + whose;
+      if (found == facets_.end() || found->key != key) text_.fail(e->line, which + " belongs to no cell");
+      if (const auto next = std::next(found); next != facets_.end() && next->key == key)
+        text_.fail(e->line, which + " lies inside the body; sides are on its boundary");
+      if (!given.insert(key).second) text_.fail(e->line, which + " is there twice");
+      side.facets.push_back(found->walk);
+      for (const Index node : found->walk) list(node);
+    }
+  }
+
+  const GmshFile& file_;
+  const Text& text_;
+  MeshType mesh_;
+  std::vector<std::pair<GmshFile::Tag, std::size_t>> places_;  // in the file, by tag
+  std::vector<Index> number_;                                  // in the mesh, by place in the file
+  std::vector<CellFacet> facets_;
+};
+
+template <int dim>
+typename GmshMesh<dim>::MeshType read_gmsh(std::string_view bytes, const std::string& name) {
+  GmshParser parser(name, bytes);
+  const GmshFile file = parser.read();
+  return GmshMesh<dim>(file, parser).make();
+}
+
+}  // namespace detail
+
+/// Reads a mesh from a Gmsh file (MSH 4.1 or 2.2, ASCII): quadrilaterals with dim 2, in the x-y plane, hexahedra with
+/// dim 3. `name` is what complaints call the file.
+///
+/// Physical groups of curves in the plane and of surfaces in space become sides, called as they are, or "curve 7" where
+/// they have no name; their facets are turned to have the body where `Side` wants it and must lie on its boundary.
+/// Groups of fewer dimensions become sides of nodes without facets: good to hold, not to load. What cells have is kept,
+/// in the order of the file: nodes of no cell and elements of no group go. Cells that are numbered clockwise (in space:
+/// mirrored) are turned.
+///
+/// Throws std::runtime_error, one sentence with the file and the line, if it cannot be read, is not what it claims to
+/// be, or is no mesh: cells of another kind, folded or on one another. Needs memory in proportion to the file, never to
+/// a count that it merely claims.
+template <int dim>
+Mesh<dim, detail::GmshMesh<dim>::nodes_per_cell> read_gmsh(std::istream& in, const std::string& name) {
+  return detail::read_gmsh<dim>(detail::read_all(in, name), name);
+}
+
+/// The same from a file on the disc.
+template <int dim>
+Mesh<dim, detail::GmshMesh<dim>::nodes_per_cell> read_gmsh(const std::filesystem::path& path) {
+  return detail::read_gmsh<dim>(detail::read_all(path), path.string());
+}
+
+}  // namespace stickslip::io
