@@ -9,13 +9,22 @@
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
+#include <string_view>
 
 namespace examples {
 
 namespace {
 
+// What the user typed, as a sentence may quote it: on one line, without what terminals obey, and not for ever.
+std::string shown(std::string text, std::size_t longest = 80) {
+  if (text.size() > longest) text = text.substr(0, longest) + "...";
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return text;
+}
+
 [[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& accepted) {
-  throw BadOption("--" + option + ": \"" + value + "\" is not accepted; it takes " + accepted);
+  throw BadOption("--" + option + ": \"" + shown(value) + "\" is not accepted; it takes " + accepted);
 }
 
 double number(const std::string& option, const std::string& text, double low, double high,
@@ -93,7 +102,11 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
     po::store(po::command_line_parser(argc, argv).options(description).positional({}).style(exact).run(), values);
     po::notify(values);
   } catch (const po::error& e) {
-    throw BadOption(std::string(e.what()) + "; --help lists the options");
+    // Boost 1.74 puts what was typed where its sentence has %option% and the like, and never ends if that has them too.
+    const bool percent = std::any_of(
+        argv, argv + argc, [](const char* word) { return std::string_view(word).find('%') != std::string_view::npos; });
+    throw BadOption((percent ? "an option is unknown, is there twice or lacks its value" : shown(e.what(), 200)) +
+                    "; --help lists the options");
   }
   if (values.count("help")) {
     std::cout << program.name << ": " << program.title << "\n\n" << description;
