@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/policy/linear_solver.hpp>
+#include <stickslip/linear_solver/refinement.hpp>
 
 #include <suitesparse/umfpack.h>
 
@@ -17,7 +17,13 @@ class Umfpack {
   static constexpr Symmetry accepts = Symmetry::general;
   static constexpr Symmetry storage = Symmetry::general;
 
-  Umfpack() { umfpack_di_defaults(control_.data()); }
+  Umfpack() {
+    umfpack_di_defaults(control_.data());
+    // The pattern is symmetric and the diagonal mostly the best pivot. Left to itself UMFPACK takes the unsymmetric
+    // strategy, whose factors of plastic flow's matrices can be off by more than its own refinement mends.
+    control_[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+    control_[UMFPACK_IRSTEP] = 0;
+  }
   Umfpack(const Umfpack&) = delete;
   Umfpack& operator=(const Umfpack&) = delete;
   ~Umfpack() {
@@ -30,28 +36,40 @@ class Umfpack {
     umfpack_di_symbolic(pattern.size, pattern.size, pattern.column_start, pattern.row, nullptr, &symbolic_,
                         control_.data(), nullptr);
     integers_.resize(static_cast<std::size_t>(pattern.size));
-    reals_.resize(5 * static_cast<std::size_t>(pattern.size));
+    reals_.resize(static_cast<std::size_t>(pattern.size));
+    refinement_.resize(pattern.size);
   }
 
   Factorization factorize(const SparseView& matrix) {
-    if (!symbolic_) return Factorization::failed;
     matrix_ = matrix;
-    umfpack_di_free_numeric(&numeric_);
-    const int status = umfpack_di_numeric(matrix.column_start, matrix.row, matrix.values, symbolic_, &numeric_,
-                                          control_.data(), nullptr);
-    return status == UMFPACK_OK ? Factorization::done : Factorization::failed;
+    return factorize(0.1) ? Factorization::done : Factorization::failed;
   }
 
   bool solve(const Real* right_hand_side, Real* solution) {
-    return umfpack_di_wsolve(UMFPACK_A, matrix_.column_start, matrix_.row, matrix_.values, solution, right_hand_side,
-                             numeric_, control_.data(), nullptr, integers_.data(), reals_.data()) == UMFPACK_OK;
+    const auto solved = [&] {
+      return refinement_.solve(matrix_, right_hand_side, solution, [&](const Real* b, Real* x) {
+        return umfpack_di_wsolve(UMFPACK_A, matrix_.column_start, matrix_.row, matrix_.values, x, b, numeric_,
+                                 control_.data(), nullptr, integers_.data(), reals_.data()) == UMFPACK_OK;
+      });
+    };
+    return solved() || (factorize(1) && solved());
   }
 
  private:
+  // With the largest pivot of a column for 1, one that is at least that part of it below.
+  bool factorize(Real pivot_tolerance) {
+    if (!symbolic_) return false;
+    control_[UMFPACK_PIVOT_TOLERANCE] = control_[UMFPACK_SYM_PIVOT_TOLERANCE] = pivot_tolerance;
+    umfpack_di_free_numeric(&numeric_);
+    return umfpack_di_numeric(matrix_.column_start, matrix_.row, matrix_.values, symbolic_, &numeric_, control_.data(),
+                              nullptr) == UMFPACK_OK;
+  }
+
   std::array<double, UMFPACK_CONTROL> control_{};
   void* symbolic_ = nullptr;
   void* numeric_ = nullptr;
   SparseView matrix_{};
+  Refinement refinement_;
   std::vector<int> integers_;
   std::vector<double> reals_;
 };
