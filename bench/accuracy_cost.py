@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""What accuracy costs in time: the paper's benchmarks under every law and solver at several step counts, each against a
-converged run of exact Coulomb friction on the same mesh.
+"""What accuracy costs in time: the paper's benchmarks under every law and solver at several step counts and meshes, each
+against a converged run of exact Coulomb friction on the same mesh; and the laws up a wedge, where friction feeds back.
 
-    bench/accuracy_cost.py --programs build/release/examples --out out/accuracy [--quick] [--rebuild-references]
+    bench/accuracy_cost.py --build build/release --out out/accuracy [--quick] [--rebuild-references]
 
-Writes runs.csv, a work-precision diagram a scene (error of the force over the wall time of the run, Pareto front marked)
-and tables.md. The error is the L2 norm of the difference of the force-travel curves over the norm of the reference's. The
-references lie in bench/references with what made them. Runs of one scene are interleaved and repeated; times are
-medians, with the smallest and the largest. Needs gnuplot for the diagrams."""
+Writes runs.csv, wedge.csv, tables.md and a work-precision diagram a scene (error of the force over the wall time of the
+run, Pareto front marked). The error is the L2 norm of the difference of the force-travel curves over the norm of the
+reference's; "of the final force" is the largest difference over the reference's last force. The references lie in
+bench/references with what made them. Runs of one scene are interleaved and repeated; times are medians, with the smallest
+and the largest. Needs gnuplot for the diagrams."""
 
 import argparse
 import bisect
@@ -22,17 +23,23 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 
-# A scene: the program, what it is told, step counts, those of the reference, how far the curves are compared.
+# A scene: the program, what it is told, step counts by mesh (elements in each direction over the standard), those of the
+# reference, how far the curves are compared.
 SCENES = {
     "extrusion, unbounded cone": {
-        "program": "conical_extrusion", "options": ["--mu", "0.1"], "steps": [60, 125, 250, 500, 1000], "reference": 5000, "until": 178},
+        "program": "conical_extrusion", "options": [], "reference": 5000, "until": 178,
+        "steps": {1: ["auto", 60, 125, 250, 500, 1000], 2: ["auto", 250]}},
     "extrusion, container": {
-        "program": "conical_extrusion", "options": ["--mu", "0.1", "--die", "container"], "steps": [60, 125, 250, 500, 1000],
-        "reference": 5000, "until": 178},
-    "punch": {"program": "osu_punch", "options": ["--mu", "0.3"], "steps": [30, 60, 125, 250, 500], "reference": 4000, "until": 40},
-    "tube": {"program": "shock_absorber", "options": ["--mu", "0.15"], "steps": [160, 320, 640, 1280], "reference": 5000, "until": 42},
+        "program": "conical_extrusion", "options": ["--die", "container"], "reference": 5000, "until": 178,
+        "steps": {1: ["auto", 60, 125, 250, 500, 1000], 2: ["auto", 250]}},
+    "punch": {
+        "program": "osu_punch", "options": ["--mu", "0.3"], "reference": 4000, "until": 40,
+        "steps": {1: ["auto", 30, 60, 125, 250, 500], 2: ["auto", 125]}},
+    "tube": {
+        "program": "shock_absorber", "options": ["--mu", "0.15"], "reference": 5000, "until": 42,
+        "steps": {1: ["auto", 320, 640, 1280]}},
 }
-QUICK = {"extrusion, unbounded cone": [60, 125, 250], "punch": [30, 125]}
+QUICK = {"extrusion, unbounded cone": {1: ["auto", 60, 250]}, "punch": {1: ["auto", 30, 125]}}
 
 # Laws with the solvers that are compared: one of bands, one of sparse matrices.
 LAWS = {
@@ -46,13 +53,16 @@ STYLES = {"coulomb": ("#d62728", 7), "quasi-coulomb": ("#1f77b4", 5), "extrapola
           "lag-iterated-coulomb": ("#9467bd", 11), "symmetrised-coulomb": ("#8c564b", 13)}
 
 
-def run(programs, scene, law, solver, steps, tolerance=None):
-    """A run's JSON, or None if it did not reach its end."""
-    command = [str(programs / scene["program"]), *scene["options"], "--friction", law, "--solver", solver, "--steps", str(steps),
-               "--quiet", "--json", "-"]
+def run(programs, scene, law, solver, mesh, steps, tolerance=None):
+    """A run's JSON, or None if it did not reach its end within a minute."""
+    command = [str(programs / scene["program"]), *scene["options"], "--friction", law, "--solver", solver, "--refine", str(mesh),
+               "--steps", str(steps), "--quiet", "--json", "-", "--mesh-error-every", "0"]
     if tolerance:
         command += ["--tolerance", str(tolerance)]
-    done = subprocess.run(command, capture_output=True, text=True)
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=None if tolerance else 60)
+    except subprocess.TimeoutExpired:
+        return None
     return json.loads(done.stdout[done.stdout.index("{"):]) if done.returncode == 0 else None
 
 
@@ -63,37 +73,38 @@ def at(curve, travel):
 
 
 def error(curve, reference, until):
+    """L2 difference over the reference's norm, and the largest difference over the reference's last force."""
     travels = [until * k / 1000 for k in range(1001)]
     exact = [at(reference, x) for x in travels]
-    return math.sqrt(sum((at(curve, x) - e) ** 2 for x, e in zip(travels, exact)) / sum(e * e for e in exact))
+    off = [at(curve, x) - e for x, e in zip(travels, exact)]
+    return math.sqrt(sum(d * d for d in off) / sum(e * e for e in exact)), max(map(abs, off)) / abs(exact[-1])
 
 
-def reference_of(programs, name, scene, rebuild):
+def reference_of(programs, name, scene, mesh, rebuild):
     """The converged curve, and how far one with half the steps is from it: what the reference itself is worth."""
-    file = HERE / "references" / (name.replace(", ", "_").replace(" ", "_") + ".json")
+    file = HERE / "references" / (name.replace(", ", "_").replace(" ", "_") + (f"_{mesh}" if mesh > 1 else "") + ".json")
     if not rebuild and file.exists():
         stored = json.loads(file.read_text())
         return (stored["travel_mm"], stored["force_N"]), stored["worth"]
     curves = []
     for steps in (scene["reference"] // 2, scene["reference"]):
-        r = run(programs, scene, "coulomb", "banded", steps, 1e-6)
+        r = run(programs, scene, "coulomb", "banded", mesh, steps, 1e-5)
         if r is None:
             raise SystemExit(f"accuracy_cost: the reference of {name} did not reach its end")
         curves.append((r["history"]["displacement_mm"], r["history"]["force_N"]))
-    worth = error(curves[0], curves[1], scene["until"])
+    worth = error(curves[0], curves[1], scene["until"])[0]
     travels = [scene["until"] * k / 1000 for k in range(1001)]
     file.parent.mkdir(exist_ok=True)
     file.write_text(json.dumps({
-        "made_by": f"{scene['program']} {' '.join(scene['options'])} --friction coulomb --solver banded --steps {scene['reference']} --tolerance 1e-6",
+        "made_by": f"{scene['program']} {' '.join(scene['options'])} --friction coulomb --solver banded --refine {mesh} --steps {scene['reference']} --tolerance 1e-5",
         "steps": r["steps"], "iterations": r["iterations"], "worth": worth,
         "worth_is": "relative L2 difference of the same with half the steps",
         "travel_mm": travels, "force_N": [round(at(curves[1], x), 4) for x in travels]}))
     return (travels, [at(curves[1], x) for x in travels]), worth
 
 
-def measure(programs, name, scene, steps, repeats):
-    reference, worth = scene["curve"], scene["worth"]
-    jobs = [(law, solver, n) for law, solvers in LAWS.items() for solver in solvers for n in steps]
+def measure(programs, name, scene, meshes, references, repeats):
+    jobs = [(law, solver, mesh, n) for law, solvers in LAWS.items() for solver in solvers for mesh, steps in meshes.items() for n in steps]
     seconds, answers = {job: [] for job in jobs}, {}
     for _ in range(repeats):  # interleaved, so that a slow spell of the machine hits all alike
         for job in jobs:
@@ -106,11 +117,13 @@ def measure(programs, name, scene, steps, repeats):
     rows = []
     for job in jobs:
         r = answers[job]
-        row = {"scene": name, "law": job[0], "solver": job[1], "steps_asked": job[2], "completed": r is not None}
+        row = {"scene": name, "law": job[0], "solver": job[1], "mesh": job[2], "steps_asked": job[3], "completed": r is not None}
         if r:
-            row |= {"steps": r["steps"], "iterations": r["iterations"], "factorizations": r["factorizations"],
-                    "rejected_steps": r["rejected_steps"], "peak_memory_mb": round(r["peak_memory_mb"], 1),
-                    "error": error((r["history"]["displacement_mm"], r["history"]["force_N"]), reference, scene["until"]),
+            reference, worth = references[job[2]]
+            off, of_final = error((r["history"]["displacement_mm"], r["history"]["force_N"]), reference, scene["until"])
+            row |= {"unknowns": r["unknowns"], "steps": r["steps"], "iterations": r["iterations"], "factorizations": r["factorizations"],
+                    "rejected_steps": r["rejected_steps"], "peak_memory_mb": round(r["peak_memory_mb"], 1), "error": off,
+                    "error_of_final_force": of_final, "estimated_lag": r["estimated_error_lag"], "estimated_time": r["estimated_error_time"],
                     "reference_worth": worth, "seconds": statistics.median(seconds[job]),
                     "seconds_min": min(seconds[job]), "seconds_max": max(seconds[job])}
         rows.append(row)
@@ -129,7 +142,7 @@ def pareto(rows):
 
 def draw(out, name, rows):
     base = name.replace(", ", "_").replace(" ", "_")
-    done = [r for r in rows if r["completed"]]
+    done = sorted((r for r in rows if r["completed"] and r["mesh"] == 1), key=lambda r: r["steps"])
     plots = []
     for law, solvers in LAWS.items():
         colour, point = STYLES[law]
@@ -152,36 +165,58 @@ def draw(out, name, rows):
     subprocess.run(["gnuplot", script.name], cwd=out, check=True)
 
 
+def cheapest(rows, limit):
+    return min((r for r in rows if r["error"] < limit), key=lambda r: r["seconds"], default=None)
+
+
 def tables(rows_by_scene):
     lines = []
     for name, rows in rows_by_scene.items():
         done = [r for r in rows if r["completed"]]
-        lines += [f"**{name}** (reference good for {100 * rows[0].get('reference_worth', 0):.2g} %)\n",
-                  "| error below | cheapest | steps / iterations | time, s (min-max) | cheapest of the exact law by LU | time, s |", "|---|---|---|---|---|---|"]
+        worth = max((r["reference_worth"] for r in done), default=0)
+        lines += [f"**{name}** (references good for {100 * worth:.2g} %)\n",
+                  "| error below | cheapest | steps / iterations | time, s (min-max) | cheapest by LU of the exact law | time, s |", "|---|---|---|---|---|---|"]
         for limit in (0.05, 0.01, 0.001):
-            def cheapest(candidates):
-                good = [r for r in candidates if r["error"] < limit]
-                return min(good, key=lambda r: r["seconds"]) if good else None
-            best, lu = cheapest(done), cheapest([r for r in done if r["law"] == "coulomb" and r["solver"] in ("banded", "umfpack")])
+            best = cheapest([r for r in done if r["mesh"] == 1], limit)
+            lu = cheapest([r for r in done if r["mesh"] == 1 and r["law"] == "coulomb" and r["solver"] in ("banded", "umfpack")], limit)
             lines.append(f"| {100 * limit:g} % | " + (
                 f"{best['law']}, {best['solver']} | {best['steps']} / {best['iterations']} | {best['seconds']:.3f} ({best['seconds_min']:.3f}-{best['seconds_max']:.3f}) | "
                 if best else "none of these runs | | | ") + (f"{lu['solver']}, {lu['steps']} / {lu['iterations']} | {lu['seconds']:.3f} |" if lu else "none | |"))
-        lines += ["", "| law, solver | " + " | ".join(str(n) for n in sorted({r["steps_asked"] for r in rows})) + " steps |",
-                  "|---|" + "---|" * len({r["steps_asked"] for r in rows})]
-        for law, solvers in LAWS.items():
-            for solver in solvers:
-                cells = []
-                for n in sorted({r["steps_asked"] for r in rows}):
-                    r = next(r for r in rows if (r["law"], r["solver"], r["steps_asked"]) == (law, solver, n))
-                    cells.append(f"{100 * r['error']:.2g} %, {r['seconds']:.2f} s, {r['iterations']}" if r["completed"] else "ended early")
-                lines.append(f"| {law}, {solver} | " + " | ".join(cells) + " |")
+        for mesh in sorted({r["mesh"] for r in rows}):
+            asked = list(dict.fromkeys(r["steps_asked"] for r in rows if r["mesh"] == mesh))
+            unknowns = next((r["unknowns"] for r in done if r["mesh"] == mesh), 0)
+            lines += ["", f"Mesh {mesh} ({unknowns} unknowns): error, time, iterations\n", "| law, solver | " + " | ".join(f"{n} steps" for n in asked) + " |", "|---|" + "---|" * len(asked)]
+            for law, solvers in LAWS.items():
+                for solver in solvers:
+                    cells = []
+                    for n in asked:
+                        r = next(r for r in rows if (r["law"], r["solver"], r["mesh"], r["steps_asked"]) == (law, solver, mesh, n))
+                        cells.append(f"{100 * r['error']:.2g} %, {r['seconds']:.3g} s, {r['iterations']}" if r["completed"] else "ended early")
+                    lines.append(f"| {law}, {solver} | " + " | ".join(cells) + " |")
+        # The default steps, the law of the paper for one.
+        auto = {(r["law"], r["solver"]): r for r in done if r["mesh"] == 1 and r["steps_asked"] == "auto"}
+        if ("quasi-coulomb", "banded") in auto:
+            base = auto["quasi-coulomb", "banded"]
+            lines += ["", "At the default steps:\n", "| law, solver | error, of the final force | steps / iterations | time over quasi-coulomb's, banded |", "|---|---|---|---|"]
+            lines += [f"| {law}, {solver} | {100 * r['error_of_final_force']:.2f} % | {r['steps']} / {r['iterations']} | {r['seconds'] / base['seconds']:.2f} |" for (law, solver), r in auto.items()]
         lines.append("")
     return "\n".join(lines)
 
 
+def wedge_table(text, steps="160"):
+    rows = [r for r in csv.DictReader(text.splitlines()) if r["steps"] == steps]
+    kappas = list(dict.fromkeys((r["mu"], r["kappa"]) for r in rows))
+    lines = [f"**wedge**, {steps} steps: error of the ratio of the forces, iterations\n",
+             "| law | " + " | ".join(f"mu {mu}, kappa {kappa}" for mu, kappa in kappas) + " |", "|---|" + "---|" * len(kappas)]
+    for law in dict.fromkeys(r["law"] for r in rows):
+        cells = [f"{float(r['error']):.1e}, {r['iterations']}" if r["outcome"] == "completed" else r["outcome"] for r in rows if r["law"] == law]
+        lines.append(f"| {law} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--programs", type=pathlib.Path, required=True, help="folder of the built examples")
+    parser.add_argument("--build", type=pathlib.Path, required=True, help="build folder with the examples and the benchmarks")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for what is written")
     parser.add_argument("--quick", action="store_true", help="two scenes, fewer steps, no repeats: under three minutes")
     parser.add_argument("--repeats", type=int, default=3)
@@ -189,24 +224,30 @@ def main():
     parser.add_argument("--rebuild-references", action="store_true")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
-    begin, rows_by_scene = time.time(), {}
+    programs, begin, rows_by_scene = arguments.build / "examples", time.time(), {}
     for name in arguments.scenes:
         if arguments.quick and name not in QUICK:
             continue
         scene = SCENES[name]
-        scene["curve"], scene["worth"] = reference_of(arguments.programs, name, scene, arguments.rebuild_references)
-        rows_by_scene[name] = measure(arguments.programs, name, scene, QUICK[name] if arguments.quick else scene["steps"], 1 if arguments.quick else arguments.repeats)
+        meshes = QUICK[name] if arguments.quick else scene["steps"]
+        references = {mesh: reference_of(programs, name, scene, mesh, arguments.rebuild_references) for mesh in meshes}
+        rows_by_scene[name] = measure(programs, name, scene, meshes, references, 1 if arguments.quick else arguments.repeats)
         draw(arguments.out, name, rows_by_scene[name])
         print(f"{name}: {time.time() - begin:.0f} s so far", flush=True)
-    columns = ["scene", "law", "solver", "steps_asked", "completed", "steps", "iterations", "factorizations", "rejected_steps", "peak_memory_mb",
-               "error", "reference_worth", "seconds", "seconds_min", "seconds_max"]
+    wedge = subprocess.run([arguments.build / "bench" / "bench_wedge"], capture_output=True, text=True, check=True).stdout
+    (arguments.out / "wedge.csv").write_text(wedge)
+    columns = ["scene", "law", "solver", "mesh", "unknowns", "steps_asked", "completed", "steps", "iterations", "factorizations", "rejected_steps",
+               "peak_memory_mb", "error", "error_of_final_force", "estimated_lag", "estimated_time", "reference_worth", "seconds", "seconds_min", "seconds_max"]
     with open(arguments.out / "runs.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, columns)
         writer.writeheader()
         for rows in rows_by_scene.values():
             writer.writerows(rows)
     text = tables(rows_by_scene)
-    (arguments.out / "tables.md").write_text(text + "\n")
+    text += "\n" + wedge_table(wedge)
+    effects = subprocess.run([arguments.build / "bench" / "bench_effects"], capture_output=True, text=True, check=True).stdout
+    text += "\n**effects**\n\n```\n" + effects + "```\n"
+    (arguments.out / "tables.md").write_text(text)
     print(text)
 
 

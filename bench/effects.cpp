@@ -27,6 +27,10 @@ struct Lagged : Touching {
   static constexpr const char* name = "+ friction, Quasi-Coulomb";
   using Friction = QuasiCoulomb;
 };
+struct Curved : Lagged {
+  static constexpr const char* name = "+ friction, Quasi-Coulomb, on a curved tool";
+  static constexpr bool curved = true;
+};
 struct Exact : Touching {
   static constexpr const char* name = "+ friction, Coulomb by LU";
   using Friction = Coulomb;
@@ -56,7 +60,8 @@ struct Moving : Plastic {
   static constexpr const char* name = "Quasi-Coulomb + plasticity + inertia";
   using Inertia = GeneralizedAlpha;
 };
-using Effects = std::tuple<Lean, Touching, Lagged, Exact, OnFactor, Plastic, PowerPlastic, Rate, Turned, Moving>;
+using Effects =
+    std::tuple<Lean, Touching, Lagged, Curved, Exact, OnFactor, Plastic, PowerPlastic, Rate, Turned, Moving>;
 
 template <class Model>
 double microseconds_per_iteration(Index refine) {
@@ -75,6 +80,7 @@ double microseconds_per_iteration(Index refine) {
                          .tool = rigid::line({0, 5}, {-1, 0}),
                          .motion = [](Real t) { return Vec<Real, 2>(0.2 * t, -0.1 * t); },
                          .enforcement = {.normal = 1e5, .tangential = 1e4}};
+    if constexpr (requires { Model::curved; }) plate.tool = rigid::path({60, 5}, {-1, 0.02}).left(2000, 0.04);
     if constexpr (has_friction<Model>) plate.friction = {.mu = 0.1};
     parameters.contacts = {plate};
   }

@@ -240,6 +240,8 @@ class System {
   /// What the residual is measured against: the largest of the norms of the internal, contact and external nodal
   /// forces, those at supports included (theory.md, eq. 6.2).
   Real force_scale() const { return std::max({internal_.norm(), contact_.norm(), external_.norm()}); }
+  /// Largest coordinate of the body as it was [length].
+  Real extent() const { return extent_; }
   /// Residual that round-off alone leaves: the largest stiffness times the extent of the coordinates (theory.md, eq.
   /// 6.2). Without it a body that only moves, free of stress, would never be in balance.
   Real roundoff(const Field& u) const {
