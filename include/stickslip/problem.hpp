@@ -263,6 +263,9 @@ void March<Model>::advance() {
     const Index first_iterations = newton.iterations;
     if constexpr (takes_passes<Model>())
       if (!newton.trouble) passes = pass_again(u, time, dt, newton);
+    if constexpr (has_contact<Model>)
+      if (!newton.trouble && options_.watch_ways)
+        newton.trouble = system.passed_through(problem_.u_, u, problem_.time_, time);
     report_.passes += passes;
     report_.iterations += newton.iterations;
     report_.work = newton_.counts;

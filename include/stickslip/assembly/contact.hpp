@@ -4,6 +4,7 @@
 #include <stickslip/assembly/contact_kernel.hpp>
 #include <stickslip/assembly/facet.hpp>
 #include <stickslip/assembly/sparse_matrix.hpp>
+#include <stickslip/geometry/passage.hpp>
 #include <stickslip/geometry/pose.hpp>
 #include <stickslip/geometry/tool.hpp>
 #include <stickslip/mesh/mesh.hpp>
@@ -226,7 +227,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       felt_.setZero(static_cast<Index>(nodes_.size()));
       changes_ = felt_;
     }
-    if constexpr (passes) spacing_ = spacings(mesh, this->side_);
+    spacing_ = spacings(mesh, this->side_);
     weigh(mesh, kinematics);
   }
 
@@ -366,6 +367,50 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if (states_[k].touching) summary_.swing += node.lag;
       summary_.dissipated += node.dissipated;
       summary_.missed += node.missed;
+    }
+    return {};
+  }
+
+  /// Whether a node has gone through the tool on its way from the converged displacements `from` at the time `begin` to
+  /// those of the last assembly, `to` at the time `end` (theory.md, eq. 4.19-4.21).
+  template <class MeshType>
+  Trouble passed_through(const MeshType& mesh, const Field& from, const Field& to, Real begin, Real end) {
+    rigid::poses_along(motion_, begin, end, poses_);
+    const std::size_t parts = poses_.size() - 1;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const Index n = nodes_[k];
+      const Vec<Real, dim> u = from.template segment<dim>(n * dim), du = to.template segment<dim>(n * dim) - u;
+      const Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(n)] + u;
+      const auto way = [&](std::size_t i) -> Vec<Real, dim> {
+        return poses_[i].rotation.transpose() * (x + Real(i) / Real(parts) * du - poses_[i].translation);
+      };
+      Real length = 0;
+      Vec<Real, dim> here = way(0);
+      for (std::size_t i = 1; i <= parts; ++i) {
+        const Vec<Real, dim> next = way(i);
+        length += (next - here).norm();
+        here = next;
+      }
+      const Real first = states_[k].gap, last = trial_states_[k].gap, finest = 0.1 * spacing_[k];
+      const rigid::Passage<dim, Tool> passage{tool_, finest + std::max({0.0, -first, -last}), finest};
+      if (length <= first + last + 2 * passage.depth) continue;
+
+      Real gap = first, least = first;
+      here = way(0);
+      for (std::size_t i = 1; i <= parts && least >= -passage.depth; ++i) {
+        const Vec<Real, dim> next = way(i);
+        const Real there = i == parts ? last : distance_to<Real, dim>(tool_, next).gap;
+        least = there >= -passage.depth ? passage.least_gap(here, gap, next, there) : there;
+        here = next;
+        gap = there;
+      }
+      if (least >= -passage.depth) continue;
+      if (!std::isfinite(least)) return {Cause::not_finite, {Place::Kind::contact_node, n}};
+      // A node that touches may have gone around a convex tool: its way is the chord. Around, not through.
+      if (trial_states_[k].touching &&
+          passage.entered(way, parts).dot(distance_to<Real, dim>(tool_, way(parts)).normal) > -1e-3)
+        continue;
+      return {Cause::tunnelled, {Place::Kind::contact_node, n}};
     }
     return {};
   }
@@ -525,7 +570,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;
   [[no_unique_address]] Only<passes || lags, std::vector<Memory>, Friction> renewed_;  // where the present pass starts
-  [[no_unique_address]] Only<passes, std::vector<Real>, Enforcement> spacing_;
+  std::vector<Real> spacing_;
+  std::vector<rigid::Pose<dim>> poses_;  // along a step
   [[no_unique_address]] Only<iterates, Relaxation, Memory> relaxation_;
   [[no_unique_address]] Only<lags, Field, Matrix> felt_;  // pressures that the bounds of the last pass saw
   [[no_unique_address]] Only<lags, Field, struct ChangesTag> changes_;  // and what it found, less these

@@ -4,6 +4,8 @@
 #include <stickslip/mesh/mesh.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -65,21 +67,24 @@ std::vector<Real> nodal_areas(const MeshType& mesh, const Kinematics& kinematics
   return areas;
 }
 
-/// Distances of the nodes of a side from the nearest neighbour on a common facet; of a node without one, the extent of
-/// the side.
+/// Distances of the nodes of a side from the nearest neighbour on a common facet; of a node without one, on a common
+/// cell.
 template <class MeshType>
 std::vector<Real> spacings(const MeshType& mesh, const std::string& side) {
   const auto& nodes = mesh.side(side).nodes;
   const auto at = [&](Index n) -> const auto& {
     return mesh.nodes[static_cast<std::size_t>(n)];
   };
-  Real extent = 0;
-  for (const Index n : nodes) extent = std::max(extent, (at(n) - at(nodes[0])).norm());
-  std::vector<Real> lengths(nodes.size(), extent > 0 ? extent : 1);
-  for_each_corner(mesh, side, [&](std::size_t k, Index node, const auto& facet) {
-    for (const Index other : facet)
-      if (other != node) lengths[k] = std::min(lengths[k], (at(other) - at(node)).norm());
-  });
+  std::vector<Real> lengths(nodes.size(), std::numeric_limits<Real>::infinity());
+  const auto nearest = [&](std::size_t k, const auto& neighbours) {
+    for (const Index other : neighbours)
+      if (other != nodes[k]) lengths[k] = std::min(lengths[k], (at(other) - at(nodes[k])).norm());
+  };
+  for_each_corner(mesh, side, [&](std::size_t k, Index, const auto& facet) { nearest(k, facet); });
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (std::isinf(lengths[k]))
+      for (const auto& cell : mesh.cells)
+        if (std::find(cell.begin(), cell.end(), nodes[k]) != cell.end()) nearest(k, cell);
   return lengths;
 }
 

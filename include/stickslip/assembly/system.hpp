@@ -264,6 +264,16 @@ class System {
     return sum;
   }
 
+  /// Whether a contact node has gone through its tool between the converged displacements `from` at the time `begin`
+  /// and the last evaluation, `to` at the time `end`.
+  Trouble passed_through(const Field& from, const Field& to, Real begin, Real end) requires with_contact {
+    Trouble trouble;
+    for_each_contact(pairs_, [&](auto& pair) {
+      if (!trouble) trouble = pair.passed_through(body_.mesh(), from, to, begin, end);
+    });
+    return trouble;
+  }
+
   /// Makes the state of the last evaluation the converged one.
   void commit() {
     if constexpr (with_inertia) inertia_.commit();

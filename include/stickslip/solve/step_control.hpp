@@ -28,6 +28,7 @@ struct MarchOptions {
   Index max_passes = 30;  ///< over a step
   Index space_every = 0;  ///< steps from one estimate of the mesh's error to the next; 0: none
   bool line_search = true;
+  bool watch_ways = true;     ///< reject a step over which a node goes through a tool (theory.md, eq. 4.19)
   bool watch_lag = true;      ///< probe lagging bounds that swing, and at the end, and give up where they feed back
   std::vector<Real> stops{};  ///< times that a step must end at
 

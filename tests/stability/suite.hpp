@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSL-1.0
+// A table of hard cases: each prints one line and asserts its answer, or its clean refusal.
+#pragma once
+
+#include <stickslip/base/outcome.hpp>
+#include <stickslip/base/types.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stability {
+
+using namespace stickslip;
+using V = Vec<Real, 2>;
+
+/// What became of a case, and the judge of it: whatever does not hold makes it wrong.
+class Case {
+ public:
+  explicit Case(std::string label) : label_(std::move(label)) {}
+
+  /// Notes a claim that failed.
+  void require(bool holds, const std::string& claim) {
+    if (!holds) wrong_.push_back(claim);
+  }
+  /// |value - exact| <= tolerance |exact|; the largest such defect of the case is printed.
+  void near(Real value, Real exact, Real tolerance, const std::string& claim) {
+    small(std::abs(value - exact) / (exact != 0 ? std::abs(exact) : 1), tolerance, claim);
+  }
+  /// A defect that must not exceed its limit.
+  void small(Real defect, Real limit, const std::string& claim) {
+    worst_ = std::max(worst_, std::isfinite(defect) ? defect : std::numeric_limits<Real>::infinity());
+    if (!(defect <= limit)) wrong_.push_back(claim + " (off by " + number(defect) + ", allowed " + number(limit) + ")");
+  }
+  /// Runs a march to its end, counts its work, and demands that it complete.
+  template <class March>
+  void completes(March&& march) {
+    runs(march);
+    require(bool(march.outcome()), march.outcome().message());
+  }
+  /// Runs a march to its end, counts its work, and demands that it be refused for one of these causes.
+  template <class March>
+  void refuses(March&& march, std::vector<Cause> causes) {
+    runs(march);
+    refused_ = true;
+    const Outcome& outcome = march.outcome();
+    require(std::find(causes.begin(), causes.end(), outcome.trouble.cause) != causes.end(), outcome.message());
+    cause_ = describe(outcome.trouble.cause);
+  }
+  /// Counts the work of a march that has run.
+  template <class March>
+  void runs(March&& march) {
+    for (const auto& step : march) residual_ = std::max(residual_, step.residual);
+    steps_ += march.report().steps;
+    iterations_ += march.report().iterations;
+    rejected_ += march.report().rejected_steps;
+  }
+  /// The case ends in an input error that names `part`.
+  template <class F>
+  void complains(F&& f, const std::string& part) {
+    refused_ = true;
+    try {
+      f();
+      wrong_.push_back("no complaint about " + part);
+    } catch (const std::invalid_argument& error) {
+      cause_ = "input error";
+      require(std::string(error.what()).find(part) != std::string::npos, "complaint: " + std::string(error.what()));
+    }
+  }
+  void note(const std::string& text) { note_ += (note_.empty() ? "" : "; ") + text; }
+
+  static std::string number(Real x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", x);
+    return text;
+  }
+
+  const std::string& label() const { return label_; }
+  const std::vector<std::string>& wrong() const { return wrong_; }
+  bool refused() const { return refused_; }
+  std::string outcome() const { return !wrong_.empty() ? "WRONG" : refused_ ? "refused: " + cause_ : "converged"; }
+  Index steps() const { return steps_; }
+  Index iterations() const { return iterations_; }
+  Index rejected() const { return rejected_; }
+  /// The worst of the claims' defects; for a case without any, of the residuals over the force scale.
+  Real worst() const { return worst_ > 0 ? worst_ : residual_; }
+  const std::string& noted() const { return note_; }
+
+ private:
+  std::string label_, cause_, note_;
+  std::vector<std::string> wrong_;
+  Index steps_ = 0, iterations_ = 0, rejected_ = 0;
+  Real worst_ = 0, residual_ = 0;
+  bool refused_ = false;
+};
+
+enum class Form { quick, full };  ///< in which forms of the suite a case runs: in both, or in the full one alone
+
+struct Entry {
+  std::string group, name, bundle, asserted;
+  Form form;
+  std::function<void(Case&)> run;
+};
+/// All cases, in the order of their registration within a source file.
+std::vector<Entry>& entries();
+
+/// Registers a case at namespace scope.
+struct Hard {
+  Hard(std::string group, std::string name, std::string bundle, std::string asserted, std::function<void(Case&)> run,
+       Form form = Form::quick) {
+    entries().push_back(
+        {std::move(group), std::move(name), std::move(bundle), std::move(asserted), form, std::move(run)});
+  }
+};
+
+}  // namespace stability
