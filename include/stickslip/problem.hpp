@@ -203,10 +203,17 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
     if (swings_ < 3 && !(time >= options_.end && std::abs(swing) > notable)) return false;
     System<Mechanical>& system = *problem_.system_;
     const Real before = system.bound_change();
-    system.probe();
-    pass_start_ = u;
-    const NewtonReport probed = newton_.resume(system, pass_start_, time, dt);
-    const bool grows = probed.trouble || system.bound_change() >= system.stable_below() * before;
+    bool grows = true;
+    // A part of the way, where the whole of it is too far for an iteration that starts at the step's solution.
+    for (const Real share : {1.0, 0.25, 0.0625}) {
+      system.probe(share);
+      pass_start_ = u;
+      const NewtonReport probed =
+          share == 1 ? newton_.resume(system, pass_start_, time, dt) : newton_.solve(system, pass_start_, time, dt);
+      if (probed.trouble) continue;
+      grows = system.answer() >= system.stable_below() * share * before;
+      break;
+    }
     system.begin_passes();
     return grows || system.evaluate(u, time, dt);
   }
@@ -343,6 +350,9 @@ void March<Model>::advance() {
     give_up();
     control_.reject(time);
     if (control_.too_small()) {
+      if constexpr (!has_inertia<Model>)
+        if (!system.evaluate(problem_.u_, problem_.time_, dt) && system.moves_freely(problem_.u_))
+          newton.trouble = {Cause::unsupported, {}};
       outcome_ = {.trouble = newton.trouble,
                   .step = report_.steps + 1,
                   .time = problem_.time_,

@@ -69,8 +69,11 @@ class Scene {
   }
   Scene& start_velocity(const std::function<Vec<Real, dim>(const Vec<Real, dim>&)>& velocity) requires
       has_inertia<Model> {
-    for (Index n = 0; n < body_.mesh().node_count(); ++n)
-      inertia_->velocity().template segment<dim>(n * dim) = velocity(body_.mesh().nodes[static_cast<std::size_t>(n)]);
+    for (Index n = 0; n < body_.mesh().node_count(); ++n) {
+      const Vec<Real, dim> v = velocity(body_.mesh().nodes[static_cast<std::size_t>(n)]);
+      if (!v.allFinite()) throw std::invalid_argument("start velocity: it is not finite at node " + std::to_string(n));
+      inertia_->velocity().template segment<dim>(n * dim) = v;
+    }
     return *this;
   }
 
@@ -159,7 +162,11 @@ class Scene {
       throw std::invalid_argument("side \"" + side + "\": there is no component " + std::to_string(component));
   }
   SideValue checked(SideValue value) {
-    (void)body_.mesh().side(value.side);
+    const auto& nodes = body_.mesh().side(value.side).nodes;
+    if (nodes.empty()) throw std::invalid_argument("side \"" + value.side + "\" has no nodes");
+    for (const Index n : nodes)
+      if (n < 0 || n >= body_.mesh().node_count())
+        throw std::invalid_argument("side \"" + value.side + "\" names a node that does not exist");
     require_component(value.side, value.component);
     system_.reset();  // supports decide the numbering
     return value;

@@ -71,15 +71,17 @@ int main(int argc, char** argv) {
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     (!judged.wrong().empty() ? wrong : judged.refused() ? refused : converged)++;
-    std::printf("%s: %s | %s | %s | %d steps, %d iterations, %d cut | worst %s | %s | %.1f s\n", entry.group.c_str(),
-                entry.name.c_str(), entry.bundle.c_str(), judged.outcome().c_str(), judged.steps(), judged.iterations(),
-                judged.rejected(), Case::number(judged.worst()).c_str(), entry.asserted.c_str(), seconds);
+    std::printf("%s: %s | %s | %s | %d steps, %d iterations, %d cut | balance %s, answer %s | %s | %.1f s\n",
+                entry.group.c_str(), entry.name.c_str(), entry.bundle.c_str(), judged.outcome().c_str(), judged.steps(),
+                judged.iterations(), judged.rejected(), Case::number(judged.balance()).c_str(),
+                Case::number(judged.worst()).c_str(), entry.asserted.c_str(), seconds);
     if (!judged.noted().empty()) std::printf("    %s\n", judged.noted().c_str());
     for (const std::string& claim : judged.wrong()) std::printf("    WRONG: %s\n", claim.c_str());
     std::fflush(stdout);
     rows += "| " + entry.group + " | " + entry.name + " | " + entry.bundle + " | " + judged.outcome() + " | " +
             std::to_string(judged.steps()) + " / " + std::to_string(judged.iterations()) + " / " +
-            std::to_string(judged.rejected()) + " | " + Case::number(judged.worst()) + " | " + entry.asserted +
+            std::to_string(judged.rejected()) + " | " + Case::number(judged.balance()) + " | " +
+            Case::number(judged.worst()) + " | " + entry.asserted +
             (judged.noted().empty() ? "" : "; " + judged.noted()) + " |\n";
   }
   const int tried = converged + refused + wrong;

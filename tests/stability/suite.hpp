@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -44,18 +47,30 @@ class Case {
   template <class March>
   void refuses(March&& march, std::vector<Cause> causes) {
     runs(march);
-    refused_ = true;
-    const Outcome& outcome = march.outcome();
-    require(std::find(causes.begin(), causes.end(), outcome.trouble.cause) != causes.end(), outcome.message());
-    cause_ = describe(outcome.trouble.cause);
+    refused_for(march.outcome().trouble.cause, causes, march.outcome().message());
   }
   /// Counts the work of a march that has run.
   template <class March>
   void runs(March&& march) {
-    for (const auto& step : march) residual_ = std::max(residual_, step.residual);
-    steps_ += march.report().steps;
-    iterations_ += march.report().iterations;
-    rejected_ += march.report().rejected_steps;
+    for (const auto& step : march) balance_ = std::max(balance_, step.residual);
+    counts(march.report().steps, march.report().iterations, march.report().rejected_steps);
+  }
+  void counts(Index steps, Index iterations, Index rejected) {
+    steps_ += steps;
+    iterations_ += iterations;
+    rejected_ += rejected;
+  }
+  /// The books of a run, as far as they are out.
+  void books(Real defect, Real limit) {
+    balance_ = std::max(balance_, defect);
+    if (!(defect <= limit))
+      wrong_.push_back("energy is out of balance by " + number(defect) + ", allowed " + number(limit));
+  }
+  /// Ends in a refusal that was asked for.
+  void refused_for(Cause cause, const std::vector<Cause>& causes, const std::string& message) {
+    refused_ = true;
+    require(std::find(causes.begin(), causes.end(), cause) != causes.end(), message);
+    cause_ = describe(cause);
   }
   /// The case ends in an input error that names `part`.
   template <class F>
@@ -84,15 +99,17 @@ class Case {
   Index steps() const { return steps_; }
   Index iterations() const { return iterations_; }
   Index rejected() const { return rejected_; }
-  /// The worst of the claims' defects; for a case without any, of the residuals over the force scale.
-  Real worst() const { return worst_ > 0 ? worst_ : residual_; }
+  /// The worst of the claims' defects.
+  Real worst() const { return worst_; }
+  /// The worst of the books' defects, over what is in them, or of the residuals over the force scale.
+  Real balance() const { return balance_; }
   const std::string& noted() const { return note_; }
 
  private:
   std::string label_, cause_, note_;
   std::vector<std::string> wrong_;
   Index steps_ = 0, iterations_ = 0, rejected_ = 0;
-  Real worst_ = 0, residual_ = 0;
+  Real worst_ = 0, balance_ = 0;
   bool refused_ = false;
 };
 

@@ -211,6 +211,10 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         enforcement_(contact.enforcement),
         weight_(nodes_.size(), 0.0),
         pressures_(nodes_.size()) {
+    if (nodes_.empty()) throw std::invalid_argument("contact \"" + name_ + "\": the side has no nodes");
+    for (const Index n : nodes_)
+      if (n < 0 || n >= mesh.node_count())
+        throw std::invalid_argument("contact \"" + name_ + "\": the side names a node that does not exist");
     if (tool_.empty()) throw std::invalid_argument("contact \"" + name_ + "\": the tool has no surface");
     if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
     if constexpr (with_friction)
@@ -222,6 +226,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       committed_.resize(nodes_.size());
       trial_.resize(nodes_.size());
     }
+    if constexpr (is_augmented<Enforcement>) stiffened_ = 1;
+    if constexpr (with_friction) turning_.resize(nodes_.size());
     if constexpr (passes || lags) renewed_.resize(nodes_.size());
     if constexpr (lags) {
       felt_.setZero(static_cast<Index>(nodes_.size()));
@@ -293,10 +299,18 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   }
 
   /// Begins an iteration: the pressures of the converged state become variables of their own.
-  void begin_iteration() { pressures_.begin(); }
+  void begin_iteration() {
+    pressures_.begin();
+    if constexpr (with_friction) std::fill(turning_.begin(), turning_.end(), Turning{});
+  }
   /// Makes the pressures follow the change du of the displacements.
   void follow(const Field& du) {
     for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_.follow(k, du.template segment<dim>(nodes_[k] * dim));
+    if constexpr (with_friction)
+      for (Turning& t : turning_) {
+        if (t.held) t.now.setZero();
+        t = {.before = t.now, .now = t.now};
+      }
   }
   void move(Real length) { pressures_.move(length); }
   Real openness() const { return pressures_.openness(); }
@@ -323,7 +337,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if constexpr (with_friction && dim == 3)
         if (settled > 0 || pressure > 0) add_curvature_of_place(tool_, on_tool(mesh, u, pose, n), at);
       const auto node = contact_node<Real, dim>(enforcement_, friction_, Friction{}, weight_[k], at, slipped, old,
-                                                pressure, dt, area(k));
+                                                pressure, dt, area(k), excess && turned(k));
       if (node.cause != Cause::none) return {node.cause, {Place::Kind::contact_node, n}};
       if constexpr (remembers) trial_[k] = node.memory;
 
@@ -336,6 +350,12 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       summary_.stored += 0.5 * std::abs(state.pressure * state.gap - states_[k].pressure * states_[k].gap);
       pressures_[k] = node.pressure;
       if constexpr (with_friction) {
+        if (excess) {
+          Turning& t = turning_[k];
+          t.held = t.turned && node.sliding;
+          t.now = node.slides;
+          t.turned = t.turned || t.now.dot(t.before) < 0;
+        }
         state.slip = node.memory.friction.slip;
         summary_.max_slip = std::max(summary_.max_slip, state.slip);
       }
@@ -348,6 +368,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         pressures_[k].slope = pose.rotation * node.pressure.slope;
         pressures_[k].excess = pose.rotation * node.pressure.excess;
         excess->template segment<dim>(n * dim) += pressures_[k].excess;
+        if constexpr (with_friction) excess->template segment<dim>(n * dim) += pose.rotation * node.beyond;
       }
       if (driven) forces.template segment<dim>(n * dim) += whole * driven->template segment<dim>(n * dim);
       if constexpr (keeps_couplings<Model>) {
@@ -420,6 +441,10 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   void begin_passes() requires(passes || lags) {
     renewed_ = committed_;
     if constexpr (iterates) relaxation_ = {};
+    if constexpr (is_augmented<Enforcement>) {
+      for (Real& w : weight_) w /= stiffened_;
+      stiffened_ = 1;
+    }
   }
   /// Starts the next pass from where the last one ended: its tractions for multipliers, its pressures in the bounds.
   /// Only the places and the slid distances stay those of the converged state.
@@ -446,10 +471,16 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   Real bound_change() requires lags { return changes().norm(); }
   /// How much of the last change of its bound a pressure may answer with, for the lag to settle [-].
   static constexpr Real stable_below() requires lags { return Friction::Pressure::stable_below; }
-  /// Makes the bounds see the pressures that the last pass found.
-  void probe() requires lags {
-    changes();
-    see(1);
+  /// Makes the bounds see a share of the last `bound_change`.
+  void probe(Real share) requires lags { see(share); }
+  /// Square of the norm of what the pressures have changed by since the last `bound_change` [force^2].
+  Real answer_squared() const requires lags {
+    Real square = 0;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const auto i = static_cast<Index>(k);
+      square += std::pow(found(k) - felt_[i] - changes_[i], 2);
+    }
+    return square;
   }
 
   /// How far the last pass was from what another one would give: the largest gap of a pressed node, and the largest
@@ -473,6 +504,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   /// Stiffens the enforcement, where the passes do not settle quickly enough.
   void stiffen(Real factor) requires(is_augmented<Enforcement>) {
     for (Real& w : weight_) w *= factor;
+    stiffened_ *= factor;
   }
 
   /// Energy that penetration and sticking store at the converged state, where the enforcement tells it.
@@ -494,6 +526,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     std::swap(states_, trial_states_);
     pressures_.commit();
     force_ = trial_force_;
+    if constexpr (is_augmented<Enforcement>) stiffened_ = 1;  // what a converged step took stays
     if constexpr (passes || lags) begin_passes();
   }
 
@@ -520,12 +553,14 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   // The pressures that the last pass found, less those that its bounds saw.
   const Field& changes() requires lags {
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
-      const Real found = trial_states_[k].touching ? pressures_[k].value : 0;
-      felt_[static_cast<Index>(k)] = Friction::Pressure::pressure(found, renewed_[k].friction.pressure, dt_);
-      changes_[static_cast<Index>(k)] = found - felt_[static_cast<Index>(k)];
+      const auto i = static_cast<Index>(k);
+      felt_[i] = Friction::Pressure::pressure(found(k), renewed_[k].friction.pressure, dt_);
+      changes_[i] = found(k) - felt_[i];
     }
     return changes_;
   }
+  // The pressure of the last assembly.
+  Real found(std::size_t k) const { return trial_states_[k].touching ? pressures_[k].value : 0; }
   // Makes the bounds see the pressures a part of the way from those that they saw to those that were found.
   void see(Real share) requires lags {
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
@@ -539,6 +574,14 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       return renewed_[k];
     else
       return committed_[k];
+  }
+
+  // Whether the search along a solution has been at a place where the node slides the other way (theory.md, eq. 6.11).
+  bool turned([[maybe_unused]] std::size_t k) const {
+    if constexpr (with_friction)
+      return turning_[k].turned;
+    else
+      return false;
   }
 
   // Reference area that a node carries, where the friction law asks for it.
@@ -561,18 +604,28 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     if constexpr (takes_area) areas_ = nodal_areas(mesh, kinematics, this->side_);
   }
 
+  // Where a node slides to in an iteration.
+  struct Turning {
+    Vec<Real, place_components<dim>> before = Vec<Real, place_components<dim>>::Zero();  // where the search set out
+    Vec<Real, place_components<dim>> now = Vec<Real, place_components<dim>>::Zero();
+    bool turned = false, held = false;
+  };
+
   Tool tool_;
   [[no_unique_address]] Only<with_friction, typename Friction::Law, Contact<Model, Friction>> friction_;
   Enforcement enforcement_;
   std::vector<Real> weight_;
   [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
   StiffRelations<dim> pressures_;
+  [[no_unique_address]] Only<with_friction, std::vector<Turning>, struct TurningTag> turning_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;
   [[no_unique_address]] Only<passes || lags, std::vector<Memory>, Friction> renewed_;  // where the present pass starts
   std::vector<Real> spacing_;
   std::vector<rigid::Pose<dim>> poses_;  // along a step
   [[no_unique_address]] Only<iterates, Relaxation, Memory> relaxation_;
+  [[no_unique_address]] Only<is_augmented<Enforcement>, Real, struct StiffenedTag>
+      stiffened_;                                         // by how much in this step
   [[no_unique_address]] Only<lags, Field, Matrix> felt_;  // pressures that the bounds of the last pass saw
   [[no_unique_address]] Only<lags, Field, struct ChangesTag> changes_;  // and what it found, less these
   [[no_unique_address]] Only<lags, Real, struct StepTag> dt_{};         // of the last assembly

@@ -53,6 +53,9 @@ struct NodeContact {
   S lag = S(0);                                 ///< bound at the current pressure less the bound that was used [force]
   S dissipated = S(0);                          ///< work of friction in this step [energy]
   S missed = S(0);                              ///< work that friction would do besides at the current bound [energy]
+  Vec<S, place_components<dim>> slides = Vec<S, place_components<dim>>::Zero();  ///< where to: the friction force then
+  Vec<S, dim> beyond =
+      Vec<S, dim>::Zero();  ///< force that sticking would add to a node that is held (eq. 6.11) [force]
   Cause cause = Cause::none;
   bool touching = false;
   bool sliding = false;
@@ -83,12 +86,12 @@ Vec<S, place_components<dim>> along_surface(const Vec<S, place_components<dim>>&
 /// Normal contact and friction of one node, in the tool's frame (theory.md, eq. 4.4-4.6, 5.1-5.9 and 6.7). `slipped` is
 /// the change of the place on the tool since the converged state, `pressure` the one that the iteration has; a node
 /// touches while it is positive, or once the gap asks for one. `area` is the reference area that the node carries,
-/// looked at only by a law that asks for it.
+/// looked at only by a law that asks for it. A sliding node that is `held` is linearised as one that sticks.
 template <class S, int dim, class Enforcement, class Law, class Friction>
 NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     const Enforcement& enforcement, const Law& law, Friction, Real weight, const SurfacePoint<S, dim>& at,
     const Vec<S, place_components<dim>>& slipped, const NodeMemory<S, dim, Enforcement, Friction>& old,
-    const S& pressure, Real dt, [[maybe_unused]] Real area = 0) {
+    const S& pressure, Real dt, [[maybe_unused]] Real area = 0, [[maybe_unused]] bool held = false) {
   NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> out;
   const NormalForce<S> normal = enforcement.normal_force(at.gap, weight, old.enforcement);
   out.touching = value_of(normal.value) <= 0 || value_of(pressure) > 0;
@@ -123,6 +126,12 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     out.sliding = end.sliding;
     out.memory.friction.slip = old.friction.slip + end.slide;
     out.dissipated = end.bound * end.slide;
+    if (end.sliding) out.slides = end.traction;
+    if (end.sliding && held) {
+      out.beyond = at.grad_place * (trial - end.traction);
+      end.d_place = Mat<S, m>::Identity() * stiffness;
+      end.d_pressure.setZero();
+    }
     out.force += at.grad_place * end.traction;
     out.stiffness += at.grad_place * end.d_place * at.grad_place.transpose();
     for (int k = 0; k < m; ++k) out.stiffness += at.hess_place[static_cast<std::size_t>(k)] * end.traction[k];

@@ -197,9 +197,15 @@ class System {
     for_each_lag([&](auto& pair) { least = std::min(least, pair.stable_below()); });
     return least;
   }
-  /// Makes lagging bounds see the pressures of the last evaluation; `begin_passes` takes that back.
-  void probe() requires with_lag {
-    for_each_lag([](auto& pair) { pair.probe(); });
+  /// Makes lagging bounds see a share of the last `bound_change`; `begin_passes` takes that back.
+  void probe(Real share) requires with_lag {
+    for_each_lag([&](auto& pair) { pair.probe(share); });
+  }
+  /// Norm of what the pressures have changed by since the last `bound_change` [force].
+  Real answer() requires with_lag {
+    Real square = 0;
+    for_each_lag([&](auto& pair) { square += pair.answer_squared(); });
+    return std::sqrt(square);
   }
   /// Starts the next pass from where the last one ended.
   void renew() requires with_passes {
@@ -262,6 +268,63 @@ class System {
     ContactSummary sum;
     if constexpr (with_contact) for_each_contact(pairs_, [&](const auto& pair) { sum.merge(pair.summary()); });
     return sum;
+  }
+
+  /// Whether nothing resists some rigid-body motion at the displacements u: no support, and not the tangent of the last
+  /// evaluation. Singular, then, is r.K r + c.c over these motions, r their unknown and c their constrained components.
+  bool moves_freely(const Field& u) const {
+    constexpr bool turned = Model::Kinematics::hoop;  // leaves the motion along the axis
+    constexpr int shifts = turned ? 1 : dim, count = turned ? 1 : dim + dim * (dim - 1) / 2;
+    const auto& nodes = body_.mesh().nodes;
+    Vec<Real, dim> centre = Vec<Real, dim>::Zero();
+    Real extent = 0;
+    for (const auto& X : nodes) centre += X / Real(nodes.size());
+    for (const auto& X : nodes) extent = std::max(extent, (X - centre).norm());
+    // Column k of component c.
+    const auto motion = [&](Index c, int k) -> Real {
+      const Index n = c / dim;
+      const int i = c % dim;
+      if (k < shifts) return i == (turned ? dim - 1 : k) ? 1 : 0;
+      const Vec<Real, dim> x =
+          (nodes[static_cast<std::size_t>(n)] + u.template segment<dim>(n * dim) - centre) / extent;
+      const int p = dim == 2 ? 0 : (k - shifts + 1) % 3, q = dim == 2 ? 1 : (k - shifts + 2) % 3;  // the plane it turns
+      return i == p ? -x[q] : i == q ? x[p] : 0;
+    };
+    std::vector<Index> component(static_cast<std::size_t>(dofs_.unknowns()));
+    Mat<Real, count> resistance = Mat<Real, count>::Zero();
+    for (Index c = 0; c < dofs_.components(); ++c) {
+      if (const Index e = dofs_.equation(c); e != Dofs::constrained) {
+        component[static_cast<std::size_t>(e)] = c;
+        continue;
+      }
+      for (int k = 0; k < count; ++k)
+        for (int l = 0; l < count; ++l) resistance(k, l) += motion(c, k) * motion(c, l);
+    }
+    const SparseView m = matrix_.view();
+    const Real largest = matrix_.largest();
+    for (Index j = 0; j < m.size; ++j)
+      for (Index s = m.column_start[j]; s < m.column_start[j + 1]; ++s) {
+        const Index a = component[static_cast<std::size_t>(m.row[s])], b = component[static_cast<std::size_t>(j)];
+        for (int k = 0; k < count; ++k)
+          for (int l = 0; l < count; ++l) {
+            const Real share = m.values[s] / largest;
+            resistance(k, l) += motion(a, k) * share * motion(b, l);
+            if (m.symmetry == Symmetry::symmetric && a != b) resistance(k, l) += motion(b, k) * share * motion(a, l);
+          }
+      }
+    // Elimination with the largest pivots first; one that is round-off tells.
+    for (int k = 0; k < count; ++k) {
+      int p = k, q = k;
+      for (int i = k; i < count; ++i)
+        for (int j = k; j < count; ++j)
+          if (std::abs(resistance(i, j)) > std::abs(resistance(p, q))) p = i, q = j;
+      if (!(std::abs(resistance(p, q)) > 1e-11)) return true;
+      resistance.row(k).swap(resistance.row(p));
+      resistance.col(k).swap(resistance.col(q));
+      for (int i = k + 1; i < count; ++i)
+        resistance.row(i) -= resistance(i, k) / resistance(k, k) * Vec<Real, count>(resistance.row(k)).transpose();
+    }
+    return false;
   }
 
   /// Whether a contact node has gone through its tool between the converged displacements `from` at the time `begin`

@@ -15,6 +15,7 @@ enum class Cause {
   material_failed,   ///< a material's own iteration did not converge
   friction_failed,   ///< a friction law's slip did not converge, or it softens faster than its stiffness can follow
   singular_matrix,   ///< the factorisation met a zero pivot: a rigid-body mode or a limit point
+  unsupported,       ///< a rigid-body motion that no support and no tool resists
   not_converged,     ///< the iteration limit was reached
   passes_failed,     ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
   lag_feeds_back,    ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
@@ -37,6 +38,8 @@ inline const char* describe(Cause cause) {
       return "a friction law's slip could not be found";
     case Cause::singular_matrix:
       return "the tangent matrix is singular";
+    case Cause::unsupported:
+      return "nothing holds the body: no support and no tool resists a rigid-body motion of it";
     case Cause::not_converged:
       return "the Newton iteration did not converge within its limit";
     case Cause::passes_failed:

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSL-1.0
+// A scene of the plane in run-time terms, played by bundles that were compiled once: cases instantiate nothing.
+#pragma once
+
+#include "suite.hpp"
+
+#include <stickslip/geometry/profile.hpp>
+#include <stickslip/inertia/generalized_alpha.hpp>
+#include <stickslip/problem.hpp>
+#include <stickslip/verify/energy.hpp>
+
+namespace stability {
+
+struct Touch {
+  std::string side;
+  rigid::Profile tool;
+  rigid::Motion<2> motion{};
+  Real mu = 0;
+  Real normal = 1e5, tangential = 1e4;
+  PenaltyPer per = PenaltyPer::unit_depth;
+  std::string name = "tool";
+};
+
+struct Scenery {
+  Mesh<2, 4> body;
+  Real young = 1000, poisson = 0.3;
+  Real yield = 0, hardening = 0, exponent = 1;  ///< strength and exponent of the power law, where that is the material
+  std::vector<Touch> contacts{};
+  std::vector<SideValue> driven{}, loads{};
+  std::vector<MarchOptions> marches{};  ///< one after the other, whatever becomes of them
+  Real density = 1, radius = 0.5;       ///< spectral radius of the time scheme
+  std::function<V(const V&)> velocity{};
+};
+
+/// What can be seen after a converged step.
+struct Moment {
+  const StepReport& step;
+  const Field& u;
+  const std::vector<const ContactRecord<2>*>& contacts;
+  const std::function<Real(const std::string&, Index)>& reaction;
+  const verify::Energies& energies;
+
+  V force(std::size_t contact = 0) const { return contacts[contact]->force(); }
+};
+using Look = std::function<void(const Moment&)>;
+
+/// The end of a run.
+struct Played {
+  std::vector<Outcome> outcomes;
+  RunReport report;  ///< sums of all marches
+  Field u;
+  std::vector<V> forces;
+  std::vector<ContactNodeState<2>> nodes;  ///< of the first contact
+  verify::Energies energies;
+  Real time = 0, plastic = 0;
+  Real unbalanced = 0;  ///< largest defect of the energy books over the largest amount in them
+
+  const Outcome& outcome() const { return outcomes.back(); }
+};
+
+struct Bundle {
+  std::string name;
+  Played (*play)(const Scenery&, const Look&);
+  bool lags = false;       ///< the bound is that of the last converged pressure
+  bool augmented = false;  ///< no penetration is left
+};
+/// Coulomb's friction on an elastic body, quasi-static: laws x solvers.
+const std::vector<Bundle>& elastic();
+/// The same, one of each law.
+const Bundle &coulomb(), &quasi(), &augmented();
+const Bundle& smooth();               ///< frictionless, elastic
+const Bundle& metal();                ///< J2, linear hardening, Quasi-Coulomb, plane strain
+const std::vector<Bundle>& sheets();  ///< J2, power hardening, axisymmetric: laws
+const std::vector<Bundle>& moving();  ///< elastic with inertia: laws
+const Bundle& tube();                 ///< J2, axisymmetric with inertia
+
+/// Counts a run in a case and holds its books to a limit.
+inline void take(Case& c, const Played& played, Real limit = 1e-6) {
+  c.counts(played.report.steps, played.report.iterations, played.report.rejected_steps);
+  c.books(played.unbalanced, limit);
+}
+/// Plays a scene that must run to its end.
+inline Played completes(Case& c, const Bundle& bundle, const Scenery& scenery, const Look& look = {},
+                        Real limit = 1e-6) {
+  Played played = bundle.play(scenery, look);
+  take(c, played, limit);
+  for (const Outcome& outcome : played.outcomes) c.require(bool(outcome), bundle.name + ": " + outcome.message());
+  return played;
+}
+
+inline SideValue held(const char* side, Index component) {
+  return {side, component, nullptr};
+}
+
+/// One function for all bundles.
+template <class M>
+Played play(const Scenery& scenery, const Look& look) {
+  typename Problem<M>::Parameters parameters{.body = scenery.body};
+  auto& material = parameters.material;
+  material.young = scenery.young;
+  material.poisson = scenery.poisson;
+  if constexpr (requires { material.hardening.modulus; }) {
+    material.hardening.yield = scenery.yield;
+    material.hardening.modulus = scenery.hardening;
+  } else if constexpr (requires { material.hardening.exponent; }) {
+    material.hardening.strength = scenery.yield;
+    material.hardening.offset = 1e-4;
+    material.hardening.exponent = scenery.exponent;
+  }
+  if constexpr (has_inertia<M>) {
+    parameters.inertia.density = scenery.density;
+    parameters.inertia.scheme = chung_hulbert(scenery.radius);
+  }
+  if constexpr (has_contact<M>)
+    for (const Touch& t : scenery.contacts) {
+      Contact<M> contact{.side = t.side, .tool = t.tool, .motion = t.motion, .name = t.name};
+      contact.enforcement.normal = t.normal;
+      contact.enforcement.tangential = t.tangential;
+      contact.enforcement.per = t.per;
+      if constexpr (has_friction<M>) contact.friction.mu = t.mu;
+      parameters.contacts.push_back(contact);
+    }
+  Problem<M> problem(std::move(parameters));
+  for (const SideValue& d : scenery.driven) problem.drive(d.side, d.component, d.value);
+  for (const SideValue& l : scenery.loads) problem.load(l.side, l.component, l.value);
+  if constexpr (has_inertia<M>)
+    if (scenery.velocity) problem.start_velocity(scenery.velocity);
+
+  Played out;
+  std::vector<const ContactRecord<2>*> records;
+  if constexpr (has_contact<M>) problem.visit_contacts([&](const auto& pair) { records.push_back(&pair); });
+  const std::function<Real(const std::string&, Index)> reaction = [&](const std::string& side, Index component) {
+    return problem.reaction(side, component);
+  };
+  std::optional<verify::EnergyLedger<M>> ledger;
+  Real amount = 0, defect = 0;
+  for (const MarchOptions& options : scenery.marches) {
+    auto march = problem.march(options);
+    if (!ledger) ledger.emplace(problem);
+    for (const StepReport& step : march) {
+      ledger->update(step);
+      const verify::Energies& e = ledger->energies();
+      amount = std::max({amount, std::abs(e.external), e.kinetic, e.elastic + e.penalty, e.plastic, e.friction});
+      defect = std::max(defect, std::abs(e.unbalanced()));
+      if (look) look({step, problem.displacement(), records, reaction, e});
+    }
+    out.outcomes.push_back(march.outcome());
+    out.report.steps += march.report().steps;
+    out.report.iterations += march.report().iterations;
+    out.report.rejected_steps += march.report().rejected_steps;
+    out.report.passes += march.report().passes;
+    out.report.work.indefinite_factorizations += march.report().work.indefinite_factorizations;
+    out.report.max_penetration = std::max(out.report.max_penetration, march.report().max_penetration);
+    out.report.max_slip = std::max(out.report.max_slip, march.report().max_slip);
+  }
+  out.u = problem.displacement();
+  for (const auto* record : records) out.forces.push_back(record->force());
+  if (!records.empty()) out.nodes = records[0]->states();
+  out.energies = ledger->energies();
+  out.time = problem.time();
+  out.plastic = problem.max_plastic_strain();
+  out.unbalanced = amount > 0 ? defect / amount : 0;
+  return out;
+}
+
+}  // namespace stability
