@@ -31,8 +31,13 @@ class EnergyLedger {
 
   /// Begin after `Problem::march`, before its first step.
   explicit EnergyLedger(const Scene<MechanicsOf<Model>>& problem) : problem_(problem), u_(problem.displacement()) {
-    internal_.setZero(u_.size());
-    contact_ = external_ = reaction_ = acceleration_ = internal_;
+    // What acts already at the start, as far as it is known: loads and initial penetrations in dynamics.
+    const System<MechanicsOf<Model>>& system = problem.system();
+    internal_ = system.internal();
+    contact_ = system.contact();
+    external_ = system.external();
+    reaction_.setZero(u_.size());
+    acceleration_ = reaction_;
     if constexpr (has_inertia<Model>) {
       acceleration_ = problem.inertia().acceleration();
       energies_.external = problem.inertia().kinetic_energy();
