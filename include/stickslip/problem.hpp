@@ -80,7 +80,7 @@ class March {
   ForcePredictor predictor_;
   std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
   Real last_swing_ = 0;                                                           // of the bounds' lag, over the bounds
-  Index swings_ = 0;  // steps in a row in which it changed its sign and did not fall
+  Index swings_ = 0;  // how often it has changed its sign and not fallen since it was last small, or probed
   bool begun_ = false;
   bool ended_ = false;
 };
@@ -198,7 +198,8 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
     constexpr Real notable = 0.01;
     const Real swing = contact.bound > 0 ? contact.swing / contact.bound : 0;
     const bool swung = swing * last_swing_ < 0 && std::abs(swing) > std::max(notable, 0.7 * std::abs(last_swing_));
-    swings_ = swung ? swings_ + 1 : 0;
+    // Where steps are cut a bound that has grown wears off over several before it swings up again.
+    swings_ = swung ? swings_ + 1 : std::abs(swing) > notable ? swings_ : 0;
     last_swing_ = swing;
     if (swings_ < 3 && !(time >= options_.end && std::abs(swing) > notable)) return false;
     System<Mechanical>& system = *problem_.system_;
@@ -215,6 +216,7 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
       break;
     }
     system.begin_passes();
+    swings_ = 0;
     return grows || system.evaluate(u, time, dt);
   }
   return false;

@@ -241,14 +241,14 @@ const Hard penalties_disc("penalties", "a block dragged over a disc, 1 to 1e6 ti
                                       "multipliers from " + Case::number(times));
                           });
 const Hard stiff_sticking("penalties", "sticking 10 to 1e6 times as stiff as the body", "Coulomb; QuasiCoulomb",
-                          "force of sticking as stiff as the body (full slip forgets it); under 80 iterations",
+                          "force of sticking as stiff as the body (full slip forgets it); under 110 iterations",
                           [](Case& c) {
                             for (const Bundle* b : {&coulomb(), &quasi()}) {
                               const V soft = on_disc(c, *b, 10, 1).forces[0];
                               for (Real times = 10; times < 2e6; times *= 10) {
                                 const Played p = on_disc(c, *b, 10, times);
                                 c.small((p.forces[0] - soft).norm() / soft.norm(), 1e-6, b->name);
-                                c.require(p.report.iterations < 80,
+                                c.require(p.report.iterations < 110,
                                           b->name + ": " + std::to_string(p.report.iterations) + " iterations");
                               }
                             }
@@ -284,24 +284,22 @@ const Hard large("steps", "100 times too large, 10 times too small", "Frictionle
                    c.small(apart(completes(c, smooth(), indent(0, {steps(1, 1)})).u, fine.u), 1e-8, "one step");
                    c.small(apart(completes(c, smooth(), indent(0, {steps(1, 1000)})).u, fine.u), 1e-8, "1000 steps");
                  });
-const Hard cut("steps", "fail, cut, go on", all_laws, "field of the same small steps asked for directly (1e-8)",
-               [](Case& c) {
-                 for (const Bundle& b : elastic()) {
-                   std::vector<Real> times;
-                   MarchOptions coarse = steps(1, 2);
-                   coarse.max_iterations = b.augmented ? 6 : 4;  // so that large steps fail
-                   coarse.smallest = 1e-4;
-                   const Played p =
-                       completes(c, b, indent(0.3, {coarse}), [&](const Moment& m) { times.push_back(m.step.time); });
-                   c.require(p.report.rejected_steps > 0, b.name + ": something was cut");
-                   MarchOptions direct = steps(1, 1);
-                   direct.stops = times;
-                   const Played q = completes(c, b, indent(0.3, {direct}));
-                   c.require(q.report.rejected_steps == 0 && q.report.steps == p.report.steps,
-                             b.name + ": the same steps");
-                   c.small(apart(p.u, q.u), 1e-8, b.name + ": field");
-                 }
-               });
+const Hard cut(
+    "steps", "fail, cut, go on", all_laws, "field of the same small steps asked for directly (1e-8)", [](Case& c) {
+      for (const Bundle& b : elastic()) {
+        std::vector<Real> times;
+        MarchOptions coarse = steps(1, 2);
+        coarse.max_iterations = b.augmented ? 6 : b.lags || b.name[0] == 'L' ? 4 : 5;  // so that large steps fail
+        coarse.smallest = 1e-4;
+        const Played p = completes(c, b, indent(0.3, {coarse}), [&](const Moment& m) { times.push_back(m.step.time); });
+        c.require(p.report.rejected_steps > 0, b.name + ": something was cut");
+        MarchOptions direct = steps(1, 1);
+        direct.stops = times;
+        const Played q = completes(c, b, indent(0.3, {direct}));
+        c.require(q.report.rejected_steps == 0 && q.report.steps == p.report.steps, b.name + ": the same steps");
+        c.small(apart(p.u, q.u), 1e-8, b.name + ": field");
+      }
+    });
 void no_drift(Case& c, Index cycles) {
   const Bundle* const bundles[] = {&coulomb(), &quasi()};
   for (const Bundle* b : bundles)

@@ -309,7 +309,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     if constexpr (with_friction)
       for (Turning& t : turning_) {
         if (t.held) t.now.setZero();
-        t = {.before = t.now, .now = t.now};
+        t = {.before = t.now, .now = t.now, .again = t.again || t.turned};
       }
   }
   void move(Real length) { pressures_.move(length); }
@@ -352,7 +352,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if constexpr (with_friction) {
         if (excess) {
           Turning& t = turning_[k];
-          t.held = t.turned && node.sliding;
+          t.held = turned(k) && node.sliding;
           t.now = node.slides;
           t.turned = t.turned || t.now.dot(t.before) < 0;
         }
@@ -579,7 +579,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   // Whether the search along a solution has been at a place where the node slides the other way (theory.md, eq. 6.11).
   bool turned([[maybe_unused]] std::size_t k) const {
     if constexpr (with_friction)
-      return turning_[k].turned;
+      return turning_[k].turned && turning_[k].again;
     else
       return false;
   }
@@ -608,7 +608,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   struct Turning {
     Vec<Real, place_components<dim>> before = Vec<Real, place_components<dim>>::Zero();  // where the search set out
     Vec<Real, place_components<dim>> now = Vec<Real, place_components<dim>>::Zero();
-    bool turned = false, held = false;
+    bool turned = false, again = false, held = false;  // in this search, in an earlier one
   };
 
   Tool tool_;
