@@ -224,8 +224,8 @@ const Hard edges("tools", "nodes that leave a table: open end, sharp corner, fil
                                 many = completes(c, smooth(), over_edge(tables[1], 0, 400), {}, 1);
                    c.small(apart(few.u, many.u), 1e-7, "field");
                  });
-const Hard corner(
-    "tools", "nodes pulled over a sharp corner", "5 of Coulomb x solvers",
+const Hard small_fillet(
+    "tools", "nodes pulled over a fillet of a fifth of an element", "5 of Coulomb x solvers",
     "refused where a node snaps off; last state in balance", [](Case& c) {
       for (const Bundle& b : elastic()) {
         Scenery s = over_edge(rigid::path({-9, 0}, {1, 0}).straight(12.2).right(0.1, 0.5 * pi).straight(5), 0.2, 40);
