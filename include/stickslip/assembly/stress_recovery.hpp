@@ -9,7 +9,7 @@
 namespace stickslip {
 
 /// A continuous stress over the nodes, the mean of what the elements around them say, and how far the elements' own are
-/// from it: an estimate of the error of the mesh (Zienkiewicz & Zhu 1987; theory.md, eq. 6.15).
+/// from it: an estimate of the error of the mesh (Zienkiewicz & Zhu 1987; theory.md, eq. 6.16).
 template <class Body>
 class StressRecovery {
  public:

@@ -45,9 +45,8 @@ inline const char* describe(Cause cause) {
     case Cause::passes_failed:
       return "the passes over the step did not settle";
     case Cause::lag_feeds_back:
-      return "the friction bound's lag feeds back on the pressure and grows from step to step, whatever their size; "
-             "take "
-             "the current pressure";
+      return "the friction bound's lag feeds back on the pressure and grows from step to step, whatever their "
+             "size; take the current pressure";
     case Cause::tunnelled:
       return "a node went through a tool within the step";
     case Cause::stalled:

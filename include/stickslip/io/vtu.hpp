@@ -163,7 +163,7 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
 /// Writes the converged state as a VTK unstructured grid: reference coordinates; at nodes displacement, contact force
 /// [force], contact traction [force / reference area], slip and gap [length] (not a number where no tool is near the
 /// side); in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure,
-/// the estimated error of the mesh in the stress (theory.md, eq. 6.15) and, where the material has it, plastic strain.
+/// the estimated error of the mesh in the stress (theory.md, eq. 6.16) and, where the material has it, plastic strain.
 /// In axisymmetry x is the radius, y the axis and z the hoop direction. Throws std::runtime_error, naming the file,
 /// when it cannot be written.
 template <class Model>

@@ -16,7 +16,7 @@ struct ErrorEstimates {
   Real space = 0;        ///< the mesh; only where MarchOptions::space_every asks for it
 };
 
-/// Predicts the force along a path, work over time, from the last two steps (theory.md, eq. 6.13).
+/// Predicts the force along a path, work over time, from the last two steps (theory.md, eq. 6.14).
 class ForcePredictor {
  public:
   /// Half the part of a step's force that was not to be expected [-]; 0 while there is nothing to expect it by.
