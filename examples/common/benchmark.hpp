@@ -11,6 +11,7 @@
 #include <stickslip/friction/frictionless.hpp>
 #include <stickslip/io/vtu.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/solve/advise.hpp>
 #include <stickslip/verify/energy.hpp>
 
 #include <cmath>
@@ -120,6 +121,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   if constexpr (books == Books::kept) r.energies = ledger->energies();
   r.checks_self_penetration = static_cast<bool>(benchmark.self_penetration);
   r.seconds = clock.seconds();
+  if (options.wished > 0 && r.report.steps > 0) r.advice = advise(march, options.wished).words;
   if (files) {
     if (last_frame < problem.time()) keep_state();
     write_mesh_data(options.output / "mesh.dat", problem, benchmark.section);

@@ -25,6 +25,10 @@ class Wrapped : public AnySolver {
   bool solve(const double* right_hand_side, double* solution) override {
     return solver_.solve(right_hand_side, solution);
   }
+  stickslip::Index inner_iterations() const override {
+    if constexpr (requires { solver_.inner_iterations(); }) return solver_.inner_iterations();
+    return 0;
+  }
 
  private:
   Solver solver_;

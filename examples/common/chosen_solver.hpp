@@ -17,6 +17,7 @@ class AnySolver {
   virtual void analyze(const stickslip::SparseView& pattern) = 0;
   virtual stickslip::Factorization factorize(const stickslip::SparseView& matrix) = 0;
   virtual bool solve(const double* right_hand_side, double* solution) = 0;
+  virtual stickslip::Index inner_iterations() const = 0;
 };
 
 /// A new solver for matrices of that storage; throws std::invalid_argument if the name has none.
@@ -34,6 +35,7 @@ class ChosenSolver {
   void analyze(const stickslip::SparseView& pattern) { solver_->analyze(pattern); }
   stickslip::Factorization factorize(const stickslip::SparseView& matrix) { return solver_->factorize(matrix); }
   bool solve(const double* right_hand_side, double* solution) { return solver_->solve(right_hand_side, solution); }
+  stickslip::Index inner_iterations() const { return solver_->inner_iterations(); }
 
  private:
   std::unique_ptr<AnySolver> solver_ = make_solver(chosen_solver, storage_);

@@ -65,7 +65,7 @@ std::string joined(const std::vector<std::string>& names) {
 std::optional<Options> parse(int argc, char** argv, const Program& program) {
   namespace po = boost::program_options;
   Options o;
-  std::string mu, refine, steps, tolerance, lag_tolerance, step_tolerance, space_every, output;
+  std::string mu, refine, steps, tolerance, lag_tolerance, step_tolerance, space_every, wished, output;
   const std::string about_friction = "friction law: " + joined(program.frictions),
                     about_solver = "linear solver: " + joined(program.solvers),
                     about_mu = "friction coefficient (default " + short_number(program.mu) + "; 0 with frictionless)",
@@ -85,6 +85,7 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
   add("lag-tolerance", &lag_tolerance, "X", "estimated error by lag that automatic steps aim at (default none)");
   add("step-tolerance", &step_tolerance, "X", "the same of the error by the size of the steps (default none)");
   add("mesh-error-every", &space_every, "N", "estimate the error of the mesh every N steps, 0 for never (default 10)");
+  add("advise", &wished, "X", "say how an error of the force below X would be reached in the least time");
   add("output", &output, "DIR", "write VTU, CSV and pictures there");
   add("json", &o.json, "FILE", "write the results there, - for standard output");
   std::map<std::string, std::string> given;
@@ -135,6 +136,7 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
   o.step_tolerance = wanted("step-tolerance", step_tolerance);
   if (values.count("mesh-error-every"))
     o.space_every = integer("mesh-error-every", space_every, 0, 1'000'000, "a whole number from 0 to 1000000");
+  if (values.count("advise")) o.wished = number("advise", wished, 1e-9, 0.5, "a number from 1e-9 to 0.5");
   if (values.count("output") && output.empty()) refuse("output", output, "the name of a folder");
   o.output = output;
   for (const Parameter& p : program.parameters) {

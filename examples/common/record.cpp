@@ -51,6 +51,7 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
   j["rejected_steps"] = r.report.rejected_steps;
   j["factorizations"] = r.report.work.factorizations;
   j["indefinite_factorizations"] = r.report.work.indefinite_factorizations;
+  j["inner_iterations"] = r.report.work.corrections;
   j["seconds_total"] = r.seconds;
   j["seconds_assembly"] = r.report.timings.assembly;
   j["seconds_contact"] = r.report.timings.contact;
@@ -89,6 +90,7 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
     else
       j["self_penetration_from_mm"] = nullptr;
   }
+  if (!r.advice.empty()) j["advice"] = r.advice;
   j["history"] = {{"time_s", r.time_s}, {"displacement_mm", r.travel_mm}, {"force_N", r.force_N}};
   return j;
 }
@@ -188,6 +190,7 @@ int conclude(const Options& options, const Record& r) {
         r.report.iterations, r.report.rejected_steps, r.travel_mm.back(), r.force_N.back(), r.report.max_penetration,
         r.report.max_slip, r.report.max_lag, 1e3 * r.seconds, 100 * r.report.errors.lag, 100 * r.report.errors.time,
         100 * r.report.errors.penetration, 100 * r.report.errors.space);
+  if (!r.advice.empty() && options.json != "-") std::printf("%s\n", r.advice.c_str());
   if (!options.quiet && r.self_penetration_mm)
     std::fprintf(stderr, "%s: from %.1f mm on the body passes through itself; there is no self-contact yet\n",
                  r.labels.name.c_str(), *r.self_penetration_mm);

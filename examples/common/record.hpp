@@ -35,6 +35,7 @@ struct Record {
   std::vector<double> time_s{}, travel_mm{}, force_N{};  ///< one entry more than steps: the start
   double max_plastic_strain = 0;
   double seconds = 0;
+  std::string advice{};                                   ///< where it was asked for
   std::optional<stickslip::verify::Energies> energies{};  ///< [N mm], where the benchmark keeps the books
   bool checks_self_penetration = false;
   std::optional<double> self_penetration_mm{};  ///< travel from which on the body passes through itself

@@ -9,7 +9,7 @@ import tempfile
 
 program, failing = sys.argv[1:]
 KEYS = """benchmark friction mu solver kinematics material elements unknowns symmetric_storage completed steps iterations
-rejected_steps factorizations indefinite_factorizations seconds_total seconds_assembly seconds_contact seconds_factorization
+rejected_steps factorizations indefinite_factorizations inner_iterations seconds_total seconds_assembly seconds_contact seconds_factorization
 seconds_solve seconds_estimates peak_memory_mb max_penetration_mm max_slip_mm max_plastic_strain max_lag estimated_error_lag
 estimated_error_time estimated_error_penetration estimated_error_space final_force_N history""".split()
 checks = 0
@@ -45,6 +45,7 @@ for options, words in [
     (["--lag-tolerance", "-1"], ["--lag-tolerance", '"-1"', "0 to 10"]),
     (["--step-tolerance", "inf"], ["--step-tolerance", '"inf"']),
     (["--mesh-error-every", "0.5"], ["--mesh-error-every", '"0.5"', "whole number"]),
+    (["--advise", "1"], ["--advise", '"1"', "0.5"]),
     (["--travel", "0"], ["--travel", '"0"', "1 to 500"]),
     (["--unknown"], ["--unknown", "--help"]),
     (["--fric", "coulomb"], ["--fric"]),
@@ -58,7 +59,7 @@ for options, words in [
         check(word in done.stderr, (options, word, done.stderr))
 
 done = run("--help")
-check(done.returncode == 0 and all(f"--{o}" in done.stdout for o in "friction mu solver refine steps tolerance lag-tolerance step-tolerance mesh-error-every output json quiet list help".split()), done.stdout)
+check(done.returncode == 0 and all(f"--{o}" in done.stdout for o in "friction mu solver refine steps tolerance lag-tolerance step-tolerance mesh-error-every advise output json quiet list help".split()), done.stdout)
 
 # Every listed pair runs and keeps the contract; its answer does not depend on the solver.
 listed = dict(line.split(":") for line in run("--list").stdout.splitlines())
@@ -95,6 +96,10 @@ for friction, solvers in listed.items():
         check(all(0 < result[f"estimated_error_{e}"] < 0.3 for e in ("time", "penetration", "space")), result)
         forces.append(result["final_force_N"])
     check(max(forces) - min(forces) < 1e-6 * max(forces), (friction, forces))
+
+# Advice in words: which pressure, factor and how many steps.
+advised = run("--friction", "quasi-coulomb", "--advise", "0.001", "--quiet")
+check(advised.returncode == 0 and all(w in advised.stdout for w in ("0.1 %", "the current pressure", "corrected factor", "steps", "the last converged pressure")), advised.stdout)
 
 # A run that cannot reach its end: exit code 1, the reason, and all that was computed is there.
 with tempfile.TemporaryDirectory() as folder:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // The estimates of a step's errors against the errors themselves, on the paper's extrusion (theory.md, section 6.6).
 #include <stickslip/linear_solver/banded.hpp>
+#include <stickslip/solve/advise.hpp>
 #include <stickslip/stickslip.hpp>
 
 #include <doctest/doctest.h>
@@ -16,12 +17,12 @@ using namespace stickslip;
 
 namespace {
 
-template <class Friction_>
+template <class Friction_, class Solver = Banded>
 struct Extrusion : QuasistaticDefaults {
   using Kinematics = Axisymmetric;
   using Material = FiniteJ2<LinearHardening>;
   using Friction = Friction_;
-  using LinearSolver = Banded;
+  using LinearSolver = Solver;
 };
 
 constexpr Real radius = 50.8, length = 254, travel = 178;
@@ -35,6 +36,7 @@ rigid::Profile die(bool container) {
 struct Run {
   std::vector<Real> x{0}, f{0};  // travel [mm] and force [N]
   RunReport report{};
+  RunSummary summary{};
   bool completed = false;
 };
 
@@ -46,9 +48,9 @@ struct Asked {
   Real lag_tolerance = 0, step_tolerance = 0;
 };
 
-template <class Friction>
+template <class Friction, class Solver = Banded>
 Run extrude(const Asked& asked) {
-  using M = Extrusion<Friction>;
+  using M = Extrusion<Friction, Solver>;
   Problem<M> billet{{
       .body = mesh::rectangle({.size = {radius, length}, .cells = {4, 20}}),
       .material = {.young = 68956, .poisson = 0.32, .hardening = {.yield = 31.0, .modulus = 261.2}},
@@ -72,6 +74,7 @@ Run extrude(const Asked& asked) {
     run.f.push_back(billet.reaction("bottom", 1));
   }
   run.report = march.report();
+  run.summary = RunSummary::of(march);
   run.completed = bool(march.outcome());
   return run;
 }
@@ -144,6 +147,30 @@ TEST_CASE("estimates: automatic steps hold the lag and the step's error that the
   MESSAGE("step tolerance 0.001: " << fine.report.steps << " steps, estimate " << fine.report.errors.time << " after "
                                    << coarse.report.errors.time);
   CHECK(fine.report.errors.time < 0.5 * coarse.report.errors.time);
+}
+
+TEST_CASE("advice: what it names reaches the accuracy that was wished") {
+  for (const bool container : {false, true}) {
+    CAPTURE(container);
+    const Run reference = extrude<Coulomb>({.container = container, .steps = 2000, .tolerance = 1e-5});
+    const Run coarse = extrude<QuasiCoulomb>({.container = container});
+    for (const Real wished : {0.02, 0.005}) {
+      CAPTURE(wished);
+      const Advice advice = advise(coarse.summary, wished);
+      MESSAGE(advice.words);
+      CHECK(advice.friction == "current");  // the lag would take many more steps; which factor depends on the machine
+      CHECK(advice.steps > 0);
+      const Run run = extrude<Coulomb, Corrected<BandedCholesky>>({.container = container, .steps = advice.steps});
+      REQUIRE(run.completed);
+      CHECK(difference(run, reference) < wished);
+    }
+  }
+  CHECK_THROWS_AS(advise(RunSummary{}, 0.01), std::invalid_argument);
+  const Run run = extrude<QuasiCoulomb>({});
+  CHECK_THROWS_AS(advise(run.summary, 0), std::invalid_argument);
+  CHECK_THROWS_AS(advise(run.summary, 1), std::invalid_argument);
+  CHECK(run.summary.bound == RunSummary::Bound::lagged);
+  CHECK(extrude<Coulomb>({.steps = 60}).summary.bound == RunSummary::Bound::current);
 }
 
 TEST_CASE("estimates: the mesh's error of the stress") {

@@ -183,7 +183,6 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
                 "Tool.");
   using Memory = NodeMemory<Real, dim, Enforcement, Friction>;
   using Matrix = SparseMatrix<matrix_storage<Model>>;
-  using Couplings = NodeCouplings<dim>;
   static constexpr bool with_friction = Friction::active;
   static constexpr bool remembers = !std::is_empty_v<Memory>;
   /// Whether steps take several passes for this pair.
@@ -317,9 +316,9 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
 
   /// Adds contact forces and their tangent at the nodal displacements u and `time`. With `excess`, at the pressures of
   /// the iteration, and it takes the forces that closing their defects adds.
-  template <class MeshType>
+  template <class MeshType, class Couplings>
   Trouble assemble(const MeshType& mesh, const Field& u, Real time, Real dt, const Field* driven, Field& forces,
-                   Field* excess, Matrix& matrix, Couplings& couplings) {
+                   Field* excess, Matrix& matrix, [[maybe_unused]] Couplings& couplings) {
     const rigid::Pose<dim> pose = motion_.at(time);
     summary_ = {};
     if constexpr (lags) dt_ = dt;

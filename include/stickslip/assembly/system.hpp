@@ -426,7 +426,7 @@ class System {
   Inertia& inertia_;
   Dofs dofs_;
   Matrix matrix_;
-  NodeCouplings<dim> couplings_;  // empty unless keeps_couplings
+  [[no_unique_address]] Only<keeps_couplings<Model>, NodeCouplings<dim>, System> couplings_;
   std::vector<Driven> driven_;
   std::vector<Load> loads_;
   Field internal_, contact_, external_, balance_, residual_;

@@ -32,6 +32,7 @@ struct WorkCounts {
   Index factorizations = 0;
   Index indefinite_factorizations = 0;
   Index line_search_cuts = 0;
+  Index corrections = 0;  ///< back-substitutions of a solver that corrects a symmetric factor
 };
 
 /// Newton's method on the displacements and the stiff relations' variables, with a line search. Work space and the
@@ -138,6 +139,7 @@ class Newton {
     const Stopwatch watch(system.timings.solve);
     if (!solver_.solve(system.residual().data(), step_.data()) || !step_.allFinite())
       return {Cause::singular_matrix, {}};
+    if constexpr (requires { solver_.inner_iterations(); }) counts.corrections = solver_.inner_iterations();
     // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
     if (step_.lpNorm<Eigen::Infinity>() > 1e6 * system.extent()) return {Cause::singular_matrix, {}};
     return {};
