@@ -19,9 +19,6 @@ class Umfpack {
 
   Umfpack() {
     umfpack_di_defaults(control_.data());
-    // The pattern is symmetric and the diagonal mostly the best pivot. Left to itself UMFPACK takes the unsymmetric
-    // strategy, whose factors of plastic flow's matrices can be off by more than its own refinement mends.
-    control_[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
     control_[UMFPACK_IRSTEP] = 0;
   }
   Umfpack(const Umfpack&) = delete;
@@ -52,6 +49,7 @@ class Umfpack {
                                  control_.data(), nullptr, integers_.data(), reals_.data()) == UMFPACK_OK;
       });
     };
+    // In plastic flow's matrices the pivots that UMFPACK takes for good enough can grow to more than refinement mends.
     return solved() || (factorize(1) && solved());
   }
 
@@ -59,7 +57,7 @@ class Umfpack {
   // With the largest pivot of a column for 1, one that is at least that part of it below.
   bool factorize(Real pivot_tolerance) {
     if (!symbolic_) return false;
-    control_[UMFPACK_PIVOT_TOLERANCE] = control_[UMFPACK_SYM_PIVOT_TOLERANCE] = pivot_tolerance;
+    control_[UMFPACK_PIVOT_TOLERANCE] = pivot_tolerance;
     umfpack_di_free_numeric(&numeric_);
     return umfpack_di_numeric(matrix_.column_start, matrix_.row, matrix_.values, symbolic_, &numeric_, control_.data(),
                               nullptr) == UMFPACK_OK;
