@@ -2,7 +2,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-build_packages="g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libmumps-seq-dev liblapack-dev libopenblas-dev libboost-dev libboost-program-options-dev nlohmann-json3-dev python3 gnuplot-nox"
+build_packages="g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libmumps-seq-dev liblapack-dev libopenblas-dev libboost-dev libboost-program-options-dev libboost-serialization-dev nlohmann-json3-dev python3 gnuplot-nox"
 
 # One thread: the systems are small, and fixed threads give fixed bits.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1

@@ -61,10 +61,26 @@ class March {
   const Outcome& outcome() const { return outcome_; }
   const RunReport& report() const { return report_; }
 
+  /// The run and its scene between two steps, for io::save and io::load; after a failure as they were before the step
+  /// that failed. What a file gives to a march it continues with at its next step.
+  void serialize(Archive& archive);
+
  private:
   friend class Problem<Model>;
   using Mechanical = MechanicsOf<Model>;
   March(Problem<Model>& problem, const MarchOptions& options);
+  // What the steps to come depend on besides the scene, and what is told of those that were.
+  struct Course {
+    StepControl control;
+    StepReport step{};
+    RunReport report{};
+    ForcePredictor predictor{};
+    Real last_swing = 0;
+    Index swings = 0;
+    WorkCounts work{};  // that of probes as well, which the report is told with the next step
+  };
+  Course course() const { return {control_, step_, report_, predictor_, last_swing_, swings_, newton_.counts}; }
+
   void advance();
   Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
   bool feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact);
@@ -81,6 +97,7 @@ class March {
   std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
   Real last_swing_ = 0;                                                           // of the bounds' lag, over the bounds
   Index swings_ = 0;  // how often it has changed its sign and not fallen since it was last small, or probed
+  Course before_;     // the last step that was begun
   bool begun_ = false;
   bool ended_ = false;
 };
@@ -123,7 +140,8 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
       control_(options, problem.time_),
       newton_(NewtonOptions{.tolerance = options.tolerance,
                             .max_iterations = options.max_iterations,
-                            .line_search = options.line_search}) {
+                            .line_search = options.line_search}),
+      before_(course()) {
   if constexpr (takes_passes<Model>() || has_lag<Model>()) pass_start_ = problem.u_;
   if (options.space_every > 0) {
     stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
@@ -223,11 +241,38 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
 }
 
 template <class Model>
+void March<Model>::serialize(Archive& archive) {
+  problem_.serialize(archive);
+  archive.same("solver", type_name<SolverOf<Model>>());
+  newton_.serialize(archive, *problem_.system_);
+  Course course = outcome_ ? this->course() : before_;
+  course.control.serialize(archive);
+  archive("run, last step", course.step);
+  archive("run, sums", course.report);
+  course.predictor.serialize(archive);
+  archive("run, last swing", course.last_swing);
+  archive("run, swings", course.swings);
+  archive("run, work", course.work);
+  if (!archive.gives()) return;
+  control_ = course.control;
+  step_ = course.step;
+  report_ = course.report;
+  predictor_ = course.predictor;
+  last_swing_ = course.last_swing;
+  swings_ = course.swings;
+  newton_.counts = course.work;
+  problem_.system_->timings = report_.timings;
+  outcome_ = {};
+  begun_ = ended_ = false;
+}
+
+template <class Model>
 void March<Model>::advance() {
   if (ended_ || control_.finished() || !outcome_) {
     ended_ = true;
     return;
   }
+  before_ = course();
   System<Mechanical>& system = *problem_.system_;
   Field& u = trial_;
   Index rejected = 0;

@@ -132,6 +132,31 @@ class Scene {
   template <class>
   friend class March;
 
+  // What the scene is of, and its converged state.
+  void serialize(Archive& archive) {
+    archive.same("kinematics", type_name<typename Model::Kinematics>());
+    archive.same("element", type_name<typename Model::Element>());
+    archive.same("material", type_name<typename Model::Material>());
+    archive.same("friction", type_name<typename Model::Friction>());
+    archive.same("enforcement", type_name<typename Model::Enforcement>());
+    if constexpr (with_contact) archive.same("tool", type_name<ToolOf<Model>>());
+    archive.same("inertia", type_name<typename Model::Inertia>());
+    archive.same("mesh", describe(body_.mesh()));
+    archive.same("supports", system_->dofs().describe());
+    archive("displacement", u_);
+    archive("last increment", last_increment_);
+    archive("time", time_);
+    archive("last time increment", last_dt_);
+    archive("time increment before", increment_before_dt_);
+    archive("reactions", reactions_);
+    body_.serialize(archive);
+    if constexpr (has_inertia<Model>) {
+      archive("increment before", increment_before_);
+      inertia_->serialize(archive);
+    }
+    if constexpr (with_contact) for_each_contact(pairs_, [&](auto& pair) { pair.serialize(archive); });
+  }
+
   template <class Friction>
   void add_contacts(const std::vector<Contact<Model, Friction>>& contacts,
                     std::vector<ContactPair<Model, Friction>>& pairs) requires with_contact {

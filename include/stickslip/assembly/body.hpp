@@ -32,6 +32,9 @@ class PointMemory {
   void store(Index cell, const Cell& states) {
     if constexpr (stored) cells_[static_cast<std::size_t>(cell)] = states;
   }
+  void serialize(Archive& archive, const std::string& name) {
+    if constexpr (stored) archive(name, cells_);
+  }
 
  private:
   [[no_unique_address]] Only<stored, std::vector<Cell>, PointMemory> cells_;
@@ -144,6 +147,12 @@ class BodyOf {
       const auto& states = committed_.of(e);
       for (std::size_t p = 0; p < F.size(); ++p) visit(e, static_cast<int>(p), F[p], states[p], geometry[p].weight);
     }
+  }
+
+  /// The converged memory.
+  void serialize(Archive& archive) {
+    committed_.serialize(archive, "body, material memory");
+    if constexpr (stiff) dilatations_.serialize(archive, "body, dilatations");
   }
 
   /// Geometry of the quadrature points of a cell.

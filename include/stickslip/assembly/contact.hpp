@@ -529,6 +529,20 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     if constexpr (passes || lags) begin_passes();
   }
 
+  /// The converged state. The weights are part of it: they were measured at the start, and passes may stiffen them.
+  void serialize(Archive& archive) {
+    const std::string at = "contact " + name_ + ", ";
+    archive.same(at + "side", this->side_);
+    archive(at + "nodes", states_);
+    archive(at + "weights", weight_);
+    pressures_.serialize(archive, at + "pressures");
+    if constexpr (remembers) archive(at + "memory", committed_);
+    archive(at + "force", force_);
+    archive(at + "summary", summary_);
+    if constexpr (passes || lags)
+      if (archive.gives()) begin_passes();
+  }
+
  private:
   using ContactRecord<dim>::name_, ContactRecord<dim>::motion_, ContactRecord<dim>::nodes_, ContactRecord<dim>::states_,
       ContactRecord<dim>::trial_states_, ContactRecord<dim>::summary_, ContactRecord<dim>::force_,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/archive.hpp>
 #include <stickslip/base/types.hpp>
 
+#include <string>
 #include <vector>
 
 namespace stickslip {
@@ -32,6 +34,12 @@ class Dofs {
   void scatter_add(Real factor, const Field& unknowns, Field& field) const {
     for (Index i = 0; i < components(); ++i)
       if (equation(i) != constrained) field[i] += factor * unknowns[equation(i)];
+  }
+  /// By which to tell whether another numbering is the same.
+  std::string describe() const {
+    Digest digest;
+    digest.add(equation_.data(), equation_.size());
+    return std::to_string(unknowns_) + " unknowns of " + std::to_string(components()) + " components, " + digest.text();
   }
 
  private:

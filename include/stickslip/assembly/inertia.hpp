@@ -110,6 +110,13 @@ class InertiaForces {
     return std::abs(policy_.scheme.beta - Real(1) / 6) * dt_ * dt_ * largest;
   }
 
+  /// The converged state.
+  void serialize(Archive& archive) {
+    archive("velocity", velocity_);
+    archive("acceleration", acceleration_);
+    archive("forces at the last step", old_forces_);
+  }
+
   Real kinetic_energy() const {
     Field momentum = Field::Zero(velocity_.size());
     add_product(velocity_, momentum);

@@ -184,26 +184,32 @@ class VtuSeries {
 
   template <class Model>
   void write(const Scene<Model>& problem) {
-    std::string number = std::to_string(entries_.size());
-    number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');
-    const std::string file = name_ + "_" + number + ".vtu";
-    write_vtu(directory_ / file, problem);
-    entries_.emplace_back(problem.time(), file);
+    write_vtu(directory_ / file(times_.size()), problem);
+    times_.push_back(problem.time());
     const auto path = directory_ / (name_ + ".pvd");
     std::ofstream out = detail::open(path);
     out.precision(17);
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
            "byte_order=\"LittleEndian\">\n<Collection>\n";
-    for (const auto& [time, vtu] : entries_)
-      out << "<DataSet timestep=\"" << time << "\" part=\"0\" file=\"" << vtu << "\"/>\n";
+    for (std::size_t k = 0; k < times_.size(); ++k)
+      out << "<DataSet timestep=\"" << times_[k] << "\" part=\"0\" file=\"" << file(k) << "\"/>\n";
     out << "</Collection>\n</VTKFile>\n";
     if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
   }
 
+  /// The states so far, to be kept with a march (io::save): a restarted run writes those again that came later.
+  void serialize(Archive& archive) { archive.any_length("series, times", times_); }
+
  private:
+  std::string file(std::size_t k) const {
+    std::string number = std::to_string(k);
+    number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');
+    return name_ + "_" + number + ".vtu";
+  }
+
   std::filesystem::path directory_;
   std::string name_;
-  std::vector<std::pair<Real, std::string>> entries_;
+  std::vector<Real> times_;
 };
 
 }  // namespace stickslip::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/archive.hpp>
 #include <stickslip/linear_solver/eigen_map.hpp>
 #include <stickslip/linear_solver/iteration_limits.hpp>
 #include <stickslip/linear_solver/refinement.hpp>
@@ -41,6 +42,12 @@ class Bicgstab {
     if (tight_) return false;
     tighten(true);
     return precondition() && converge(right_hand_side, solution);
+  }
+
+  void serialize(Archive& archive) {
+    bool tight = tight_;
+    archive("tight incomplete factor", tight);
+    if (archive.gives()) tighten(tight);
   }
 
   /// Of the last solution.

@@ -89,6 +89,9 @@ class Corrected {
     return true;
   }
 
+  void serialize(Archive& archive) requires requires(Symmetric& s) { s.serialize(archive); }
+  { solver_.serialize(archive); }
+
   /// Iterations of all solutions so far: back-substitutions.
   Index inner_iterations() const { return inner_iterations_; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/archive.hpp>
 #include <stickslip/base/types.hpp>
 
 #include <algorithm>
@@ -46,6 +47,21 @@ struct Mesh {
                                 "\"; it has: " + (known.empty() ? "none" : known));
   }
 };
+
+/// By which to tell whether another mesh is the same: its counts, and a digest of its nodes, cells and sides.
+template <int dim, int nodes_per_cell>
+std::string describe(const Mesh<dim, nodes_per_cell>& mesh) {
+  Digest digest;
+  digest.add(mesh.nodes.data(), mesh.nodes.size());
+  digest.add(mesh.cells.data(), mesh.cells.size());
+  for (const auto& [name, side] : mesh.sides) {
+    digest.add(name.data(), name.size());
+    digest.add(side.facets.data(), side.facets.size());
+    digest.add(side.nodes.data(), side.nodes.size());
+  }
+  return std::to_string(mesh.nodes.size()) + " nodes, " + std::to_string(mesh.cells.size()) + " cells, " +
+         digest.text();
+}
 
 namespace mesh {
 

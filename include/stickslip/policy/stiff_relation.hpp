@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/archive.hpp>
 #include <stickslip/base/types.hpp>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace stickslip {
@@ -57,6 +59,9 @@ class StiffRelations {
     for (const auto& r : now_) sum += r.excess.squaredNorm();
     return softness * softness * sum;
   }
+
+  /// The converged values.
+  void serialize(Archive& archive, const std::string& name) { archive(name, converged_); }
 
  private:
   std::vector<StiffRelation<Real, n>> now_;

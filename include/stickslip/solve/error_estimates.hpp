@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/archive.hpp>
 #include <stickslip/base/types.hpp>
 
 #include <cmath>
@@ -31,6 +32,12 @@ class ForcePredictor {
     rate_ = (force - last_) / dt;
     last_ = force;
     ++steps_;
+  }
+
+  void serialize(Archive& archive) {
+    archive("predictor, force", last_);
+    archive("predictor, rate", rate_);
+    archive("predictor, steps", steps_);
   }
 
  private:

@@ -113,6 +113,15 @@ class Newton {
     }
   }
 
+  /// What the solver remembers from one system to the next and its solutions depend on, where it says so.
+  template <class System>
+  void serialize([[maybe_unused]] Archive& archive, [[maybe_unused]] System& system) {
+    if constexpr (requires { solver_.serialize(archive); }) {
+      prepare(system);  // so that the analysis does not take it back
+      solver_.serialize(archive);
+    }
+  }
+
  private:
   template <class System>
   void prepare(System& system) {

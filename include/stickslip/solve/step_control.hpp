@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/archive.hpp>
 #include <stickslip/base/types.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace stickslip {
@@ -57,7 +59,7 @@ class StepControl {
     const Real span = options.end - begin;
     size_ = options.steps > 0 ? span / options.steps : options.initial > 0 ? options.initial : span / 100;
     if (options_.steps == 0 && options_.largest > 0) size_ = std::min(size_, options_.largest);
-    smallest_ = options.smallest > 0 ? options.smallest : 1e-9 * span;
+    smallest_ = smallest();
     std::sort(options_.stops.begin(), options_.stops.end());
   }
 
@@ -111,7 +113,20 @@ class StepControl {
   /// Gives up one that converged with too large an error.
   void reject(Real time, Real error) { size_ = (time - time_) * error_factor(error); }
 
+  /// Where the run is. Of the options, equal steps must be the same; automatic ones may go on to another end.
+  void serialize(Archive& archive) {
+    archive.same("choice of steps", options_.steps > 0 ? std::to_string(options_.steps) + " equal steps" : "automatic");
+    if (options_.steps > 0) archive.same("end", exact(options_.end));
+    archive("run, begin", begin_);
+    archive("run, time", time_);
+    archive("run, step size", size_);
+    archive("run, steps of the grid", done_);
+    archive("run, iterations at the last cut", last_shrunk_);
+    if (archive.gives()) smallest_ = smallest();
+  }
+
  private:
+  Real smallest() const { return options_.smallest > 0 ? options_.smallest : 1e-9 * (options_.end - begin_); }
   // The error goes with the cube of the size; a part is kept in reserve.
   static Real error_factor(Real error) { return std::clamp(0.9 / std::cbrt(error), 0.2, 2.0); }
   Real grid(Index k) const {

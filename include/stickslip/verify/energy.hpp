@@ -88,8 +88,21 @@ class EnergyLedger {
     reaction_ = reaction;
     if constexpr (has_contact<Model>) {
       forces_.clear();
-      problem_.visit_contacts([&](const auto& pair) { forces_.push_back(pair.states()); });
+      problem_.visit_contacts(
+          [&](const auto& pair) { forces_.insert(forces_.end(), pair.states().begin(), pair.states().end()); });
     }
+  }
+
+  /// The books, to be kept with a march (io::save).
+  void serialize(Archive& archive) {
+    archive("books, energies", energies_);
+    archive("books, displacement", u_);
+    archive("books, internal", internal_);
+    archive("books, contact", contact_);
+    archive("books, external", external_);
+    archive("books, reaction", reaction_);
+    archive("books, acceleration", acceleration_);
+    archive.any_length("books, contact nodes", forces_);
   }
 
   /// The books since the start.
@@ -125,10 +138,9 @@ class EnergyLedger {
           const Vec<Real, dim> moved =
               to.rotation * on_tool + to.translation - from.rotation * on_tool - from.translation;
           Vec<Real, dim> force = (1 - before) * pair.states()[k].force;
-          if (!forces_.empty()) force += before * forces_[p][k].force;
+          if (!forces_.empty()) force += before * forces_[p++].force;
           work -= force.dot(moved);
         }
-        ++p;
       });
     }
     return work;
@@ -137,7 +149,7 @@ class EnergyLedger {
   const Scene<MechanicsOf<Model>>& problem_;
   Energies energies_;
   Field u_, internal_, contact_, external_, reaction_, acceleration_;
-  std::vector<std::vector<ContactNodeState<dim>>> forces_;  // at the start of the step, by pair and node
+  std::vector<ContactNodeState<dim>> forces_;  // at the start of the step, by pair and node
 };
 
 template <class Model>

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/types.hpp>
+
+#include <cxxabi.h>
+
+#include <array>
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+namespace stickslip {
+
+/// A part of a state under its name: `count` values of `size` bytes each.
+struct Section {
+  std::string name;
+  std::uint64_t size = 0, count = 0;
+  std::vector<char> bytes{};
+};
+
+class Archive;
+
+namespace detail {
+template <class T>
+    struct Serializes : std::bool_constant < requires(T& value, Archive& archive) {
+  value.serialize(archive);
+} > {};
+template <class T, std::size_t n>
+struct Serializes<std::array<T, n>> : Serializes<T> {};
+
+// Whether a value may be kept as its bytes: it owns nothing and points nowhere. (Eigen's vectors of fixed size are not
+// trivially copyable by name, but own nothing either.)
+template <class T>
+inline constexpr bool is_its_bytes =
+    std::is_trivially_destructible_v<T> && !std::is_polymorphic_v<T> && !std::is_pointer_v<T>;
+template <class T, std::size_t n>
+inline constexpr bool is_its_bytes<std::array<T, n>> = is_its_bytes<T>;
+}  // namespace detail
+
+/// A state in memory, as a list of named sections: what io/checkpoint.hpp writes to a file. What can be archived has a
+/// member `void serialize(Archive& archive)` that calls the archive on every part of its state, by name and in one
+/// order; the same function is used to take a state, to compare its sections with those of the object that it is to be
+/// restored into, and to give it to that. docs/checkpoints.md.
+class Archive {
+ public:
+  /// The state of the parts, one after another.
+  template <class... Parts>
+  static Archive of(Parts&... parts) {
+    Archive archive;
+    (parts.serialize(archive), ...);
+    return archive;
+  }
+
+  /// Gives the state to parts like those that it was taken of. Throws std::runtime_error, one sentence that begins with
+  /// the `origin`, where they are not alike; the parts are then as they were.
+  template <class... Parts>
+  void restore(Parts&... parts) {
+    for (const Mode mode : {Mode::comparing, Mode::giving}) {
+      mode_ = mode;
+      next_ = 0;
+      (parts.serialize(*this), ...);
+      if (next_ < sections.size()) fail("has \"" + sections[next_].name + "\", which this run has not");
+    }
+    mode_ = Mode::taking;
+  }
+
+  /// Whether `serialize` is being called to give the object its state, so that what depends on it must follow.
+  bool gives() const { return mode_ == Mode::giving; }
+
+  /// A value, or a list of a length that the object knows: of numbers, of structs of numbers, or of what has a
+  /// `serialize` itself.
+  template <class T>
+  void operator()(const std::string& name, T& value) {
+    if constexpr (std::same_as<T, Field>)
+      exchange(name, value.data(), static_cast<std::size_t>(value.size()), sizeof(Real));
+    else
+      exchange_list(name, &value, 1);
+  }
+  template <class T>
+  void operator()(const std::string& name, std::vector<T>& list) {
+    exchange_list(name, list.data(), list.size());
+  }
+  /// A list that may have another length than the object's has now.
+  template <class T>
+  void any_length(const std::string& name, std::vector<T>& list) {
+    static_assert(detail::is_its_bytes<T> && !std::is_same_v<T, bool>);
+    if (mode_ == Mode::comparing) {
+      (void)expected(name, sizeof(T));
+      ++next_;
+      return;
+    }
+    if (mode_ == Mode::giving) list.resize(static_cast<std::size_t>(expected(name, sizeof(T)).count));
+    exchange(name, list.data(), list.size(), sizeof(T));
+  }
+  /// What must be the same in both, or else the state is of something else.
+  void same(const std::string& name, std::string text) {
+    if (mode_ == Mode::taking) return exchange(name, text.data(), text.size(), 1);
+    const Section& section = expected(name, 1);
+    const std::string_view there(section.bytes.data(), section.bytes.size());
+    if (there != text) fail("its " + name + " is \"" + std::string(there) + "\", here it is \"" + text + "\"");
+    ++next_;
+  }
+
+  std::vector<Section> sections{};
+  std::string origin = "the archive";  ///< where it comes from, for complaints: the name of a file
+
+ private:
+  enum class Mode { taking, comparing, giving };
+
+  [[noreturn]] void fail(const std::string& what) {
+    mode_ = Mode::taking;
+    throw std::runtime_error(origin + " does not fit: " + what);
+  }
+  const Section& expected(const std::string& name, std::size_t size) {
+    if (next_ == sections.size()) fail("it lacks \"" + name + "\"");
+    const Section& section = sections[next_];
+    if (section.name != name) fail("it has \"" + section.name + "\" where this run has \"" + name + "\"");
+    if (section.size != size || section.bytes.size() / size != section.count || section.bytes.size() % size != 0)
+      fail("its \"" + name + "\" is of values of " + std::to_string(section.size) + " bytes, this run's of " +
+           std::to_string(size));
+    return section;
+  }
+
+  template <class T>
+  void exchange_list(const std::string& name, T* values, std::size_t count) {
+    if constexpr (detail::Serializes<T>::value) {
+      for (std::size_t k = 0; k < count; ++k) serialize_each(values[k]);
+    } else {
+      static_assert(detail::is_its_bytes<T>,
+                    "stickslip: a state that owns memory cannot be kept as its bytes; give it a member void "
+                    "serialize(Archive&), see docs/checkpoints.md.");
+      exchange(name, values, count, sizeof(T));
+    }
+  }
+  template <class T>
+  void serialize_each(T& value) {
+    value.serialize(*this);
+  }
+  template <class T, std::size_t n>
+  void serialize_each(std::array<T, n>& values) {
+    for (T& value : values) serialize_each(value);
+  }
+
+  void exchange(const std::string& name, void* data, std::size_t count, std::size_t size) {
+    if (mode_ == Mode::taking) {
+      const char* bytes = static_cast<const char*>(data);
+      sections.push_back({name, size, count, std::vector<char>(bytes, bytes + count * size)});
+      return;
+    }
+    const Section& section = expected(name, size);
+    if (section.count != count)
+      fail("its \"" + name + "\" has " + std::to_string(section.count) + " values, this run's " +
+           std::to_string(count));
+    if (mode_ == Mode::giving && count > 0) std::memcpy(data, section.bytes.data(), section.bytes.size());
+    ++next_;
+  }
+
+  Mode mode_ = Mode::taking;
+  std::size_t next_ = 0;
+};
+
+/// A number in as many digits as tell it from all others.
+inline std::string exact(Real x) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof(digits), x).ptr};
+}
+
+/// What a type is called, for people and for comparison.
+template <class T>
+std::string type_name() {
+  const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(typeid(T).name(), nullptr, nullptr, nullptr),
+                                                    std::free);
+  return name ? name.get() : typeid(T).name();
+}
+
+/// A number by which to tell whether two sets of values are the same, to all likelihood (FNV-1a, 64 bits).
+class Digest {
+ public:
+  /// Takes values that are their bytes and have no gaps between them: numbers, and Eigen's vectors of them.
+  template <class T>
+  void add(const T* values, std::size_t count) {
+    static_assert(detail::is_its_bytes<T>);
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values);
+    for (std::size_t k = 0; k < count * sizeof(T); ++k) value_ = (value_ ^ bytes[k]) * 0x100000001b3;
+  }
+  /// In sixteen hexadecimal digits.
+  std::string text() const {
+    char digits[17];
+    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(value_));
+    return digits;
+  }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+}  // namespace stickslip
