@@ -2,6 +2,7 @@
 // Runs a benchmark as the command line asks.
 #pragma once
 
+#include "checkpoint.hpp"
 #include "dispatch.hpp"
 #include "options.hpp"
 #include "pictures.hpp"
@@ -57,6 +58,27 @@ struct Benchmark {
   std::string section{};  ///< of a mesh in space, the side that is drawn: see patches()
 };
 
+/// All that a run depends on, for its restart file.
+template <class Model>
+struct RunState {
+  const Options& options;
+  stickslip::March<Model>& march;
+  std::optional<stickslip::verify::EnergyLedger<stickslip::MechanicsOf<Model>>>& ledger;
+  std::optional<stickslip::io::VtuSeries>& series;
+  Record& record;
+  double &next_frame, &last_frame;
+
+  void serialize(stickslip::Archive& archive) {
+    require_same(archive, options);
+    march.serialize(archive);
+    if (ledger) ledger->serialize(archive);
+    if (series) series->serialize(archive);
+    record.serialize(archive);
+    archive("series, next", next_frame);
+    archive("series, last", last_frame);
+  }
+};
+
 /// Marches the problem to its end, keeps about 40 states as VTU and the deformed mesh at the march's stops, and writes
 /// what the options ask for.
 template <class Model, Books books = Books::none>
@@ -74,7 +96,8 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
     r.travel_mm.push_back(benchmark.travel_mm(problem));
     r.force_N.push_back(benchmark.force_N(problem));
   };
-  note();
+  const bool restarted = !options.restart.empty();
+  if (!restarted) note();
   const bool files = !options.output.empty();
   std::optional<io::VtuSeries> series;
   double next_frame = 0;
@@ -85,7 +108,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   };
   if (files) {
     series.emplace(options.output, benchmark.labels.name);
-    keep_state();
+    if (!restarted) keep_state();
   }
 
   Clock clock;
@@ -93,6 +116,15 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   auto march = problem.march(benchmark.march);
   std::optional<verify::EnergyLedger<MechanicsOf<Model>>> ledger;
   if constexpr (books == Books::kept) ledger.emplace(problem);
+  RunState<Model> state{options, march, ledger, series, r, next_frame, last_frame};
+  if (restarted) read_restart(options).restore(state);
+  const double seconds_before = r.seconds;
+  const Checkpoints checkpoints(options);
+  const auto keep_checkpoint = [&] {
+    r.seconds = seconds_before + clock.seconds();
+    checkpoints.write(Archive::of(state));
+  };
+  bool stopped = false;
   for (const StepReport& step : march) {
     clock.stop();
     r.steps.push_back(step);
@@ -109,10 +141,15 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
       keep_state();
       while (next_frame <= step.time) next_frame += benchmark.march.end / 40;
     }
+    if (checkpoints.due(step.number)) keep_checkpoint();
     clock.start();
+    stopped = checkpoints.stop();
+    if (stopped) break;
   }
   clock.stop();
   end_progress(options);
+  if (checkpoints.kept()) keep_checkpoint();
+  if (stopped) return conclude_stopped(options, benchmark.labels.name, march.report().steps);
 
   r.unknowns = problem.unknowns();
   r.outcome = march.outcome();
@@ -120,8 +157,8 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   r.max_plastic_strain = problem.max_plastic_strain();
   if constexpr (books == Books::kept) r.energies = ledger->energies();
   r.checks_self_penetration = static_cast<bool>(benchmark.self_penetration);
-  r.seconds = clock.seconds();
   if (options.wished > 0 && r.report.steps > 0) r.advice = advise(march, options.wished).words;
+  r.seconds = seconds_before + clock.seconds();
   if (files) {
     if (last_frame < problem.time()) keep_state();
     write_mesh_data(options.output / "mesh.dat", problem, benchmark.section);

@@ -29,6 +29,9 @@ class Wrapped : public AnySolver {
     if constexpr (requires { solver_.inner_iterations(); }) return solver_.inner_iterations();
     return 0;
   }
+  void serialize([[maybe_unused]] stickslip::Archive& archive) override {
+    if constexpr (requires { solver_.serialize(archive); }) solver_.serialize(archive);
+  }
 
  private:
   Solver solver_;

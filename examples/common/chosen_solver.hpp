@@ -3,6 +3,7 @@
 // each would take minutes to compile. It is a policy like any other, so the library need not know of it.
 #pragma once
 
+#include <stickslip/base/archive.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
 #include <memory>
@@ -18,6 +19,7 @@ class AnySolver {
   virtual stickslip::Factorization factorize(const stickslip::SparseView& matrix) = 0;
   virtual bool solve(const double* right_hand_side, double* solution) = 0;
   virtual stickslip::Index inner_iterations() const = 0;
+  virtual void serialize(stickslip::Archive& archive) = 0;
 };
 
 /// A new solver for matrices of that storage; throws std::invalid_argument if the name has none.
@@ -36,6 +38,8 @@ class ChosenSolver {
   stickslip::Factorization factorize(const stickslip::SparseView& matrix) { return solver_->factorize(matrix); }
   bool solve(const double* right_hand_side, double* solution) { return solver_->solve(right_hand_side, solution); }
   stickslip::Index inner_iterations() const { return solver_->inner_iterations(); }
+
+  void serialize(stickslip::Archive& archive) { solver_->serialize(archive); }
 
  private:
   std::unique_ptr<AnySolver> solver_ = make_solver(chosen_solver, storage_);

@@ -65,7 +65,8 @@ std::string joined(const std::vector<std::string>& names) {
 std::optional<Options> parse(int argc, char** argv, const Program& program) {
   namespace po = boost::program_options;
   Options o;
-  std::string mu, refine, steps, tolerance, lag_tolerance, step_tolerance, space_every, wished, output;
+  std::string mu, refine, steps, tolerance, lag_tolerance, step_tolerance, space_every, wished, output, checkpoint,
+      checkpoint_every, restart;
   const std::string about_friction = "friction law: " + joined(program.frictions),
                     about_solver = "linear solver: " + joined(program.solvers),
                     about_mu = "friction coefficient (default " + short_number(program.mu) + "; 0 with frictionless)",
@@ -88,6 +89,9 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
   add("advise", &wished, "X", "say how an error of the force below X would be reached in the least time");
   add("output", &output, "DIR", "write VTU, CSV and pictures there");
   add("json", &o.json, "FILE", "write the results there, - for standard output");
+  add("checkpoint", &checkpoint, "FILE", "keep the state there to restart from, written also on SIGTERM and SIGINT");
+  add("checkpoint-every", &checkpoint_every, "N", "write it every N steps (default 50)");
+  add("restart", &restart, "FILE", "continue the run of the same options that kept this state");
   std::map<std::string, std::string> given;
   for (const Parameter& p : program.parameters) {
     const std::string kind = p.names.empty() ? "X" : "NAME",
@@ -139,6 +143,15 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
   if (values.count("advise")) o.wished = number("advise", wished, 1e-9, 0.5, "a number from 1e-9 to 0.5");
   if (values.count("output") && output.empty()) refuse("output", output, "the name of a folder");
   o.output = output;
+  if (values.count("checkpoint") && checkpoint.empty()) refuse("checkpoint", checkpoint, "the name of a file");
+  if (values.count("restart") && restart.empty()) refuse("restart", restart, "the name of a file");
+  if (values.count("checkpoint-every")) {
+    o.checkpoint_every =
+        integer("checkpoint-every", checkpoint_every, 1, 1'000'000, "a whole number from 1 to 1000000");
+    if (checkpoint.empty()) refuse("checkpoint-every", checkpoint_every, "--checkpoint beside it");
+  }
+  o.checkpoint = checkpoint;
+  o.restart = restart;
   for (const Parameter& p : program.parameters) {
     double& value = o.parameters[p.name] = p.value;
     if (!values.count(p.name)) continue;

@@ -33,6 +33,8 @@ struct Options {
   double wished = 0;                             ///< error of the force to advise on; 0: none
   std::filesystem::path output;                  ///< empty: write no files
   std::string json;                              ///< empty: none; "-": standard output
+  std::filesystem::path checkpoint, restart;     ///< empty: none
+  int checkpoint_every = 50;                     ///< steps from one restart file to the next
   bool quiet = false;
   bool list = false;
   std::map<std::string, double> parameters;  ///< of the benchmark, by name

@@ -129,6 +129,20 @@ void draw_results(const Options& options, const Record& r) {
 
 }  // namespace
 
+void Record::serialize(stickslip::Archive& archive) {
+  archive.any_length("history, time", time_s);
+  archive.any_length("history, travel", travel_mm);
+  archive.any_length("history, force", force_N);
+  archive.any_length("history, steps", steps);
+  archive("history, seconds", seconds);
+  std::vector<double> penetrates;
+  if (self_penetration_mm) penetrates.push_back(*self_penetration_mm);
+  archive.any_length("history, passes through itself", penetrates);
+  if (!archive.gives()) return;
+  self_penetration_mm.reset();
+  if (!penetrates.empty()) self_penetration_mm = penetrates[0];
+}
+
 std::string shot_name(double travel_mm) {
   return "mesh_" + short_number(travel_mm, "%.1f") + ".dat";
 }

@@ -4,6 +4,7 @@
 
 #include "options.hpp"
 
+#include <stickslip/base/archive.hpp>
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/solve/report.hpp>
 #include <stickslip/verify/energy.hpp>
@@ -39,6 +40,9 @@ struct Record {
   std::optional<stickslip::verify::Energies> energies{};  ///< [N mm], where the benchmark keeps the books
   bool checks_self_penetration = false;
   std::optional<double> self_penetration_mm{};  ///< travel from which on the body passes through itself
+
+  /// The histories, and the seconds so far.
+  void serialize(stickslip::Archive& archive);
 };
 
 /// Wall clock that can be stopped while files are written.

@@ -61,6 +61,8 @@ int print_solver_table(const Options& options, const std::vector<std::string>& s
       o.solver = solver;
       o.quiet = true;
       o.output.clear();
+      o.checkpoint.clear();
+      o.restart.clear();
       o.json = "/dev/fd/" + std::to_string(results[1]);
       work(o, gigabytes, seconds, words[1], run);
     }

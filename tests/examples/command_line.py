@@ -46,6 +46,10 @@ for options, words in [
     (["--step-tolerance", "inf"], ["--step-tolerance", '"inf"']),
     (["--mesh-error-every", "0.5"], ["--mesh-error-every", '"0.5"', "whole number"]),
     (["--advise", "1"], ["--advise", '"1"', "0.5"]),
+    (["--checkpoint", ""], ["--checkpoint", "name of a file"]),
+    (["--checkpoint", "x", "--checkpoint-every", "0"], ["--checkpoint-every", '"0"', "1 to 1000000"]),
+    (["--checkpoint-every", "5"], ["--checkpoint-every", '"5"', "--checkpoint beside it"]),
+    (["--restart", ""], ["--restart", "name of a file"]),
     (["--travel", "0"], ["--travel", '"0"', "1 to 500"]),
     (["--unknown"], ["--unknown", "--help"]),
     (["--fric", "coulomb"], ["--fric"]),
@@ -59,7 +63,7 @@ for options, words in [
         check(word in done.stderr, (options, word, done.stderr))
 
 done = run("--help")
-check(done.returncode == 0 and all(f"--{o}" in done.stdout for o in "friction mu solver refine steps tolerance lag-tolerance step-tolerance mesh-error-every advise output json quiet list help".split()), done.stdout)
+check(done.returncode == 0 and all(f"--{o}" in done.stdout for o in "friction mu solver refine steps tolerance lag-tolerance step-tolerance mesh-error-every advise output json checkpoint checkpoint-every restart quiet list help".split()), done.stdout)
 
 # Every listed pair runs and keeps the contract; its answer does not depend on the solver.
 listed = dict(line.split(":") for line in run("--list").stdout.splitlines())

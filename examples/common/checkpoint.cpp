@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "checkpoint.hpp"
+
+#include <stickslip/io/checkpoint.hpp>
+
+#include <csignal>
+#include <iostream>
+
+namespace examples {
+
+namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+extern "C" void note_signal(int signal) {
+  stop_signal = signal;
+}
+
+}  // namespace
+
+Checkpoints::Checkpoints(const Options& options) : options_(options) {
+  if (!kept()) return;
+  struct sigaction action {};
+  action.sa_handler = note_signal;
+  action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);  // what is being written is written to its end
+  for (const int signal : {SIGTERM, SIGINT}) sigaction(signal, &action, nullptr);
+}
+
+bool Checkpoints::due(int step) const {
+  return kept() && step % options_.checkpoint_every == 0;
+}
+
+bool Checkpoints::stop() const {
+  return kept() && stop_signal != 0;
+}
+
+void Checkpoints::write(const stickslip::Archive& state) const {
+  stickslip::io::write_checkpoint(options_.checkpoint, state);
+}
+
+stickslip::Archive read_restart(const Options& options) {
+  return stickslip::io::read_checkpoint(options.restart);
+}
+
+int conclude_stopped(const Options& options, const std::string& program, int step) {
+  std::cerr << program << ": stopped by signal " << stop_signal << " after step " << step << "; --restart "
+            << options.checkpoint.string() << " continues from there\n";
+  return stopped_by_signal;
+}
+
+void require_same(stickslip::Archive& archive, const Options& options) {
+  using stickslip::exact;
+  archive.same("friction law", options.friction);
+  archive.same("linear solver", options.solver);
+  archive.same("mu", exact(options.mu));
+  archive.same("refinement", std::to_string(options.refine));
+  archive.same("tolerance", exact(options.tolerance));
+  archive.same("lag tolerance", exact(options.lag_tolerance));
+  archive.same("step tolerance", exact(options.step_tolerance));
+  archive.same("interval of the mesh's error", std::to_string(options.space_every));
+  for (const auto& [name, value] : options.parameters) archive.same(name, exact(value));
+  archive.same("output", options.output.empty() ? "none" : "a folder");
+}
+
+}  // namespace examples

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+// A benchmark program that says on standard error after which times it has converged: for the test of what a killed run
+// leaves behind. Its march has books, an output, inertia and a tool that some steps are cut for.
+#include "common/benchmark.hpp"
+
+#include <stickslip/inertia/generalized_alpha.hpp>
+#include <stickslip/stickslip.hpp>
+
+#include <cstdio>
+
+using namespace stickslip;
+
+struct Press : QuasistaticDefaults {
+  using Material = FiniteJ2<LinearHardening>;
+  using Friction = ExtrapolatedCoulomb;
+  using Inertia = GeneralizedAlpha;
+  using LinearSolver = EigenLdlt;
+};
+
+int main(int argc, char** argv) {
+  const examples::Program program{.name = "restarted_run",
+                                  .title = "a block that is pressed and dragged",
+                                  .frictions = {"extrapolated-quasi-coulomb"},
+                                  .solvers = {"eigen-ldlt"},
+                                  .mu = 0.2};
+  return examples::guarded(program.name, [&] {
+    const auto options = examples::parse(argc, argv, program);
+    if (!options) return 0;
+    Problem<Press> block{
+        {.body =
+             mesh::rectangle({.origin = {1, 0}, .size = {3, 1}, .cells = {18 * options->refine, 6 * options->refine}}),
+         .material = {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 50}},
+         .inertia = {.density = 0.1},
+         .contacts = {{.side = "top",
+                       .tool = rigid::disc({2, 4.02}, 3),
+                       .motion = [](Real t) { return Vec<Real, 2>(std::max(0.0, t - 0.3), -0.3 * std::min(t, 0.3)); },
+                       .friction = {.mu = options->mu},
+                       .enforcement = {.normal = 20, .tangential = 2, .per = PenaltyPer::stiffness}}}}};
+    block.hold("bottom", 0).hold("bottom", 1);
+    return examples::run<Press, examples::Books::kept>(
+        *options, block,
+        {.labels = {.name = "restarted_run",
+                    .kinematics = "plane strain",
+                    .material = "finite J2, linear hardening",
+                    .travel = "travel",
+                    .force = "force",
+                    .view = ""},
+         .march = {.end = 1, .initial = 0.002, .largest = 0.004, .stops = {0.3}},
+         .travel_mm =
+             [](const auto& p) {
+               std::fprintf(stderr, "%.17g\n", p.time());
+               return p.time();
+             },
+         .force_N = [](const auto& p) { return p.contact_force("top")[1]; },
+         .reach_mm = 2});
+  });
+}
