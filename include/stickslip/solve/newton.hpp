@@ -146,12 +146,18 @@ class Newton {
       if (f == Factorization::failed) return {Cause::singular_matrix, {}};
     }
     const Stopwatch watch(system.timings.solve);
-    if (!solver_.solve(system.residual().data(), step_.data()) || !step_.allFinite())
-      return {Cause::singular_matrix, {}};
-    if constexpr (requires { solver_.inner_iterations(); }) counts.corrections = solver_.inner_iterations();
+    const Index corrections = corrections_so_far();
+    const bool solved = solver_.solve(system.residual().data(), step_.data());
+    counts.corrections += corrections_so_far() - corrections;
+    if (!solved || !step_.allFinite()) return {Cause::singular_matrix, {}};
     // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
     if (step_.lpNorm<Eigen::Infinity>() > 1e6 * system.extent()) return {Cause::singular_matrix, {}};
     return {};
+  }
+
+  Index corrections_so_far() const {
+    if constexpr (requires { solver_.inner_iterations(); }) return solver_.inner_iterations();
+    return 0;
   }
 
   Solver solver_;
