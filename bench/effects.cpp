@@ -80,7 +80,7 @@ double microseconds_per_iteration(Index refine) {
                          .tool = rigid::line({0, 5}, {-1, 0}),
                          .motion = [](Real t) { return Vec<Real, 2>(0.2 * t, -0.1 * t); },
                          .enforcement = {.normal = 1e5, .tangential = 1e4}};
-    if constexpr (requires { Model::curved; }) plate.tool = rigid::path({60, 5}, {-1, 0.02}).left(2000, 0.04);
+    if constexpr (requires { Model::curved; }) plate.tool = rigid::path({51, 5.4}, {-1, -0.02}).right(2000, 0.04);
     if constexpr (has_friction<Model>) plate.friction = {.mu = 0.1};
     parameters.contacts = {plate};
   }

@@ -46,7 +46,7 @@ void climb(const char* name, Real mu, Index steps) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const Real exact = (slope + mu) / (1 - mu * slope);
   const bool completed = bool(march.outcome());
-  std::printf("%s,%g,%.2f,%d,%s,", name, mu, mu / slope, steps,
+  std::printf("\"%s\",%g,%.2f,%d,\"%s\",", name, mu, mu / slope, steps,
               completed ? "completed" : describe(march.outcome().trouble.cause));
   if (completed)
     std::printf("%.3g,%.3g", std::abs(force / -block.reaction("top", 1) / exact - 1), lag);
