@@ -12,7 +12,7 @@
 #include <stickslip/friction/frictionless.hpp>
 #include <stickslip/io/vtu.hpp>
 #include <stickslip/problem.hpp>
-#include <stickslip/solve/advise.hpp>
+#include <stickslip/advise.hpp>
 #include <stickslip/verify/energy.hpp>
 
 #include <cmath>

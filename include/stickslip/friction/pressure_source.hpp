@@ -58,6 +58,7 @@ struct Extrapolated {
   using Role = role::PressureSource;
   static constexpr bool follows_current = false;
   static constexpr Real stable_below = 1.0 / 3;  ///< kappa of theory.md, eq. 5.15
+  static constexpr int lag_order = 2;            ///< of the bound's error in the step
   template <class S>
   struct Memory {
     S pressure = S(0);  ///< [force]

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/friction/pressure_source.hpp>
 #include <stickslip/problem.hpp>
 
 #include <algorithm>
@@ -27,8 +26,8 @@ struct RunSummary {
     if constexpr (has_friction<Model>) {
       using Friction = typename Model::Friction;
       run.bound = !has_lag<Model>() || takes_passes<Model>() ? Bound::current : Bound::lagged;
-      if constexpr (requires { typename Friction::Pressure; })
-        if (std::is_same_v<typename Friction::Pressure, Extrapolated>) run.bound = Bound::extrapolated;
+      if constexpr (requires { Friction::Pressure::lag_order; })
+        if (Friction::Pressure::lag_order == 2) run.bound = Bound::extrapolated;
     }
     return run;
   }
