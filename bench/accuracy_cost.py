@@ -54,13 +54,13 @@ STYLES = {"coulomb": ("#d62728", 7), "quasi-coulomb": ("#1f77b4", 5), "extrapola
 
 
 def run(programs, scene, law, solver, mesh, steps, tolerance=None):
-    """A run's JSON, or None if it did not reach its end within 15 s."""
+    """A run's JSON, or None if it did not reach its end within 10 s."""
     command = [str(programs / scene["program"]), *scene["options"], "--friction", law, "--solver", solver, "--refine", str(mesh),
                "--steps", str(steps), "--quiet", "--json", "-", "--mesh-error-every", "0"]
     if tolerance:
         command += ["--tolerance", str(tolerance)]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=None if tolerance else 15)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=None if tolerance else 10)
     except subprocess.TimeoutExpired:
         return None
     return json.loads(done.stdout[done.stdout.index("{"):]) if done.returncode == 0 else None
