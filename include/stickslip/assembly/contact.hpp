@@ -233,6 +233,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       changes_ = felt_;
     }
     spacing_ = spacings(mesh, this->side_);
+    poses_.reserve(5);  // of a tool that does not turn
     weigh(mesh, kinematics);
   }
 
