@@ -143,9 +143,7 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
                             .line_search = options.line_search}),
       before_(course()) {
   if constexpr (takes_passes<Model>() || has_lag<Model>()) pass_start_ = problem.u_;
-  if (options.space_every > 0) {
-    stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
-  }
+  if (options.space_every > 0) stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
   if (!problem.system_) {
     if constexpr (has_inertia<Model>)
       problem.system_ = std::make_unique<System<Mechanical>>(problem.body_, problem.pairs_, *problem.inertia_,

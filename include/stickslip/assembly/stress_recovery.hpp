@@ -3,6 +3,8 @@
 
 #include <stickslip/assembly/body.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -62,6 +64,10 @@ class StressRecovery {
     relative_ = whole > 0 ? std::sqrt(errors / whole) : 0;
   }
 
+  /// Cauchy stress of a quadrature point, as its element has it [stress].
+  const Stress& stress(Index cell, int point) const {
+    return stress_[static_cast<std::size_t>(cell)][static_cast<std::size_t>(point)];
+  }
   /// Norm of the estimated error over that of the stress, over the body [-].
   Real relative() const { return relative_; }
   /// Root mean square of the estimated error by cell [stress].

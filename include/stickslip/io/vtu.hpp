@@ -91,10 +91,11 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
 
   std::vector<Real> stress(6 * cells, 0.0), mises(cells, 0.0), pressure(cells, 0.0),
       plastic_strain(plastic ? cells : 0, 0.0), volume(cells, 0.0);
-  body.visit_points(u, [&](Index cell, int, const Tensor<Real, Shape>& F, const auto& state, Real weight) {
+  StressRecovery<Body> recovery(body);
+  recovery.update(body, u);
+  body.visit_points(u, [&](Index cell, int point, const auto&, const auto& state, Real weight) {
     const auto e = static_cast<std::size_t>(cell);
-    Tensor<Real, Shape> cauchy = kirchhoff(body.material().respond(F, state, 0.0).P, F);
-    cauchy.v /= determinant(F);
+    const Tensor<Real, Shape>& cauchy = recovery.stress(cell, point);
     static constexpr std::array<std::pair<int, int>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
     for (std::size_t k = 0; k < order.size(); ++k)
       if (Shape::couples(order[k].first, order[k].second))
@@ -151,8 +152,6 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
   write_array(out, "Float64", "von_mises_stress", 1, mises);
   write_array(out, "Float64", "pressure", 1, pressure);
   if constexpr (plastic) write_array(out, "Float64", "plastic_strain", 1, plastic_strain);
-  StressRecovery<Body> recovery(body);
-  recovery.update(body, u);
   write_array(out, "Float64", "stress_error", 1, recovery.cells());
   out << "</CellData>\n</Piece></UnstructuredGrid>\n</VTKFile>\n";
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
