@@ -28,8 +28,8 @@ class March {
     using iterator_concept = std::input_iterator_tag;
     using value_type = StepReport;
     using difference_type = std::ptrdiff_t;
-    const StepReport& operator*() const { return march_->step_; }
-    const StepReport* operator->() const { return &march_->step_; }
+    const StepReport& operator*() const { return march_->now_.step; }
+    const StepReport* operator->() const { return &march_->now_.step; }
     Iterator& operator++() {
       march_->advance();
       return *this;
@@ -59,7 +59,7 @@ class March {
   }
   /// How the run ended, or that it goes well so far.
   const Outcome& outcome() const { return outcome_; }
-  const RunReport& report() const { return report_; }
+  const RunReport& report() const { return now_.report; }
 
   /// The run and its scene between two steps, for io::save and io::load; after a failure as they were before the step
   /// that failed. What a file gives to a march it continues with at its next step.
@@ -75,11 +75,10 @@ class March {
     StepReport step{};
     RunReport report{};
     ForcePredictor predictor{};
-    Real last_swing = 0;
-    Index swings = 0;
-    WorkCounts work{};  // that of probes as well, which the report is told with the next step
+    Real last_swing = 0;  // of the bounds' lag, over the bounds
+    Index swings = 0;     // how often it has changed its sign and not fallen since it was last small, or probed
+    WorkCounts work{};    // that of probes as well, which the report is told with the next step
   };
-  Course course() const { return {control_, step_, report_, predictor_, last_swing_, swings_, newton_.counts}; }
 
   void advance();
   Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
@@ -87,17 +86,11 @@ class March {
 
   Scene<Mechanical>& problem_;
   MarchOptions options_;
-  StepControl control_;
+  Course now_, before_;  // as it stands, and at the beginning of the last step
   Newton<SolverOf<Model>> newton_;
-  StepReport step_{};
-  RunReport report_{};
   Outcome outcome_{};
   Field trial_, driven_, pass_start_;
-  ForcePredictor predictor_;
   std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
-  Real last_swing_ = 0;                                                           // of the bounds' lag, over the bounds
-  Index swings_ = 0;  // how often it has changed its sign and not fallen since it was last small, or probed
-  Course before_;     // the last step that was begun
   bool begun_ = false;
   bool ended_ = false;
 };
@@ -137,11 +130,11 @@ template <class Model>
 March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
     : problem_(problem),
       options_(options),
-      control_(options, problem.time_),
+      now_{.control = StepControl(options, problem.time_)},
+      before_(now_),
       newton_(NewtonOptions{.tolerance = options.tolerance,
                             .max_iterations = options.max_iterations,
-                            .line_search = options.line_search}),
-      before_(course()) {
+                            .line_search = options.line_search}) {
   if constexpr (takes_passes<Model>() || has_lag<Model>()) pass_start_ = problem.u_;
   if (options.space_every > 0) stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
   if (!problem.system_) {
@@ -213,11 +206,12 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
     if (!options_.watch_lag || takes_passes<Model>()) return false;
     constexpr Real notable = 0.01;
     const Real swing = contact.bound > 0 ? contact.swing / contact.bound : 0;
-    const bool swung = swing * last_swing_ < 0 && std::abs(swing) > std::max(notable, 0.7 * std::abs(last_swing_));
+    const bool swung =
+        swing * now_.last_swing < 0 && std::abs(swing) > std::max(notable, 0.7 * std::abs(now_.last_swing));
     // Where steps are cut a bound that has grown wears off over several before it swings up again.
-    swings_ = swung ? swings_ + 1 : std::abs(swing) > notable ? swings_ : 0;
-    last_swing_ = swing;
-    if (swings_ < 3 && !(time >= options_.end && std::abs(swing) > notable)) return false;
+    now_.swings = swung ? now_.swings + 1 : std::abs(swing) > notable ? now_.swings : 0;
+    now_.last_swing = swing;
+    if (now_.swings < 3 && !(time >= options_.end && std::abs(swing) > notable)) return false;
     System<Mechanical>& system = *problem_.system_;
     const Real before = system.bound_change();
     bool grows = true;
@@ -232,7 +226,7 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
       break;
     }
     system.begin_passes();
-    swings_ = 0;
+    now_.swings = 0;
     return grows || system.evaluate(u, time, dt);
   }
   return false;
@@ -243,7 +237,8 @@ void March<Model>::serialize(Archive& archive) {
   problem_.serialize(archive);
   archive.same("solver", type_name<SolverOf<Model>>());
   newton_.serialize(archive, *problem_.system_);
-  Course course = outcome_ ? this->course() : before_;
+  now_.work = newton_.counts;
+  Course course = outcome_ ? now_ : before_;
   course.control.serialize(archive);
   archive("run, last step", course.step);
   archive("run, sums", course.report);
@@ -252,35 +247,31 @@ void March<Model>::serialize(Archive& archive) {
   archive("run, swings", course.swings);
   archive("run, work", course.work);
   if (!archive.gives()) return;
-  control_ = course.control;
-  step_ = course.step;
-  report_ = course.report;
-  predictor_ = course.predictor;
-  last_swing_ = course.last_swing;
-  swings_ = course.swings;
-  newton_.counts = course.work;
-  problem_.system_->timings = report_.timings;
+  now_ = course;
+  newton_.counts = now_.work;
+  problem_.system_->timings = now_.report.timings;
   outcome_ = {};
   begun_ = ended_ = false;
 }
 
 template <class Model>
 void March<Model>::advance() {
-  if (ended_ || control_.finished() || !outcome_) {
+  if (ended_ || now_.control.finished() || !outcome_) {
     ended_ = true;
     return;
   }
-  before_ = course();
+  now_.work = newton_.counts;
+  before_ = now_;
   System<Mechanical>& system = *problem_.system_;
   Field& u = trial_;
   Index rejected = 0;
   const auto give_up = [&] {
     ++rejected;
-    ++report_.rejected_steps;
+    ++now_.report.rejected_steps;
     if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
   };
   for (;;) {
-    const Real time = control_.next();
+    const Real time = now_.control.next();
     const Real dt = time - problem_.time_;
     // Guess: the last increment again. For lack of one, with inertia velocity and acceleration, else the tangent at the
     // converged state.
@@ -318,17 +309,17 @@ void March<Model>::advance() {
     if constexpr (has_contact<Model>)
       if (!newton.trouble && options_.watch_ways)
         newton.trouble = system.passed_through(problem_.u_, u, problem_.time_, time);
-    report_.passes += passes;
-    report_.iterations += newton.iterations;
-    report_.work = newton_.counts;
-    report_.timings = system.timings;
+    now_.report.passes += passes;
+    now_.report.iterations += newton.iterations;
+    now_.report.work = newton_.counts;
+    now_.report.timings = system.timings;
     Real local_error = 0, error = 0;
     if constexpr (has_inertia<Model>) {
       if (!newton.trouble) local_error = problem_.inertia_->local_error();
       if (options_.time_tolerance > 0) error = local_error / options_.time_tolerance;
       if (error > 2 && options_.steps == 0) {
-        control_.reject(time, error);
-        if (!control_.too_small()) {
+        now_.control.reject(time, error);
+        if (!now_.control.too_small()) {
           give_up();
           continue;
         }
@@ -340,14 +331,14 @@ void March<Model>::advance() {
       const Real work = std::abs(system.internal().dot(u - problem_.u_)) + contact.dissipated;
       const auto part = [&](Real missed) { return work > 0 ? std::abs(missed) / work : 0; };
       ErrorEstimates errors = {.lag = part(contact.missed),
-                               .time = predictor_.error(work, dt),
+                               .time = now_.predictor.error(work, dt),
                                .penetration = part(contact.stored),
-                               .space = step_.errors.space};
-      predictor_.take(work, dt);
+                               .space = now_.step.errors.space};
+      now_.predictor.take(work, dt);
       if constexpr (has_lag<Model>())
         if (feeds_back(u, time, dt, contact)) {
           outcome_ = {.trouble = {Cause::lag_feeds_back, {}},
-                      .step = report_.steps + 1,
+                      .step = now_.report.steps + 1,
                       .time = problem_.time_,
                       .tried_step = dt,
                       .attempts = rejected + 1};
@@ -357,7 +348,7 @@ void March<Model>::advance() {
       Real excess = 0;
       if (options_.lag_tolerance > 0) excess = errors.lag / options_.lag_tolerance;
       if (options_.step_tolerance > 0) excess = std::max(excess, errors.time / options_.step_tolerance);
-      control_.accept(time, first_iterations, error, excess);
+      now_.control.accept(time, first_iterations, error, excess);
       system.commit();
       if constexpr (has_inertia<Model>) {
         problem_.increment_before_.swap(problem_.last_increment_);
@@ -368,38 +359,38 @@ void March<Model>::advance() {
       problem_.u_ = u;
       problem_.time_ = time;
       for (Index c = 0; c < system.dofs().components(); ++c) problem_.reactions_[c] = system.reaction(c);
-      if (stress_ && report_.steps % options_.space_every == 0) {
+      if (stress_ && now_.report.steps % options_.space_every == 0) {
         const Stopwatch watch(system.timings.estimates);
         stress_->update(problem_.body_, u);
         errors.space = stress_->relative();
       }
 
-      step_ = {.number = ++report_.steps,
-               .time = time,
-               .dt = dt,
-               .iterations = newton.iterations,
-               .rejected = rejected,
-               .passes = passes,
-               .residual = newton.residual,
-               .contact = contact,
-               .lag = lag,
-               .local_error = local_error,
-               .work = work,
-               .errors = errors};
-      report_.max_penetration = std::max(report_.max_penetration, step_.contact.max_penetration);
-      report_.max_slip = std::max(report_.max_slip, step_.contact.max_slip);
-      report_.max_lag = std::max(report_.max_lag, step_.lag);
-      report_.book(work, errors);
+      now_.step = {.number = ++now_.report.steps,
+                   .time = time,
+                   .dt = dt,
+                   .iterations = newton.iterations,
+                   .rejected = rejected,
+                   .passes = passes,
+                   .residual = newton.residual,
+                   .contact = contact,
+                   .lag = lag,
+                   .local_error = local_error,
+                   .work = work,
+                   .errors = errors};
+      now_.report.max_penetration = std::max(now_.report.max_penetration, now_.step.contact.max_penetration);
+      now_.report.max_slip = std::max(now_.report.max_slip, now_.step.contact.max_slip);
+      now_.report.max_lag = std::max(now_.report.max_lag, now_.step.lag);
+      now_.report.book(work, errors);
       return;
     }
     give_up();
-    control_.reject(time);
-    if (control_.too_small()) {
+    now_.control.reject(time);
+    if (now_.control.too_small()) {
       if constexpr (!has_inertia<Model>)
         if (!system.evaluate(problem_.u_, problem_.time_, dt) && system.moves_freely(problem_.u_))
           newton.trouble = {Cause::unsupported, {}};
       outcome_ = {.trouble = newton.trouble,
-                  .step = report_.steps + 1,
+                  .step = now_.report.steps + 1,
                   .time = problem_.time_,
                   .tried_step = dt,
                   .attempts = rejected};
