@@ -87,7 +87,7 @@ class March {
   Scene<Mechanical>& problem_;
   MarchOptions options_;
   Course now_, before_;  // as it stands, and at the beginning of the last step
-  Newton<SolverOf<Model>> newton_;
+  Newton<SolverOf<Model>, has_near_tangent<Model>()> newton_;
   Outcome outcome_{};
   Field trial_, driven_, pass_start_;
   std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for

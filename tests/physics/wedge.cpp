@@ -60,6 +60,9 @@ TEST_CASE("up a wedge: the current pressure and what comes to it are exact, at a
     check("Coulomb", climb<Coulomb, EigenLu>(mu));
     check("on a symmetric factor", climb<Coulomb, Corrected<EigenLdlt>>(mu));
     check("lag iterated", climb<WithPressure<Coulomb, LagIterated>, EigenLdlt>(mu));
+    for (const Index steps : {4, 10, 160})
+      check("symmetrised", climb<WithPressure<Coulomb, Symmetrised>, EigenLdlt>(mu, steps));
+    check("symmetrised, pivoted band", climb<WithPressure<Coulomb, Symmetrised>, Banded>(mu));
   }
 }
 

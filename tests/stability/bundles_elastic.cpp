@@ -19,6 +19,7 @@ const std::vector<Bundle>& elastic() {
       {"Coulomb, EigenLu", play<Model<EigenLu, Coulomb>>},
       {"Coulomb, Corrected<EigenLdlt>", play<Model<Corrected<EigenLdlt>, Coulomb>>},
       {"LagIterated, EigenLdlt", play<Model<EigenLdlt, Iterated>>},
+      {"Symmetrised, EigenLdlt", play<Model<EigenLdlt, WithPressure<Coulomb, Symmetrised>>>},
       {"QuasiCoulomb, EigenLdlt", play<Model<EigenLdlt, QuasiCoulomb>>, true},
       {"multipliers, Coulomb, EigenLu", play<Multipliers<EigenLu, Coulomb>>, false, true},
   };
@@ -28,10 +29,10 @@ const Bundle& coulomb() {
   return elastic()[0];
 }
 const Bundle& quasi() {
-  return elastic()[3];
+  return elastic()[4];
 }
 const Bundle& augmented() {
-  return elastic()[4];
+  return elastic()[5];
 }
 const Bundle& smooth() {
   static const Bundle one{"Frictionless, EigenLdlt", play<Model<EigenLdlt, Frictionless>>};

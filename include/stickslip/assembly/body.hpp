@@ -89,10 +89,11 @@ class BodyOf {
   void begin_iteration() {
     if constexpr (stiff) dilatations_.begin();
   }
-  /// Makes the variables follow the change du of the displacements.
-  void follow(const Field& du) {
+  /// Makes the variables follow the change du of the displacements, and close a share of their defects.
+  void follow(const Field& du, Real closing) {
     if constexpr (stiff)
-      for (Index e = 0; e < mesh_.cell_count(); ++e) dilatations_.follow(static_cast<std::size_t>(e), gather(du, e));
+      for (Index e = 0; e < mesh_.cell_count(); ++e)
+        dilatations_.follow(static_cast<std::size_t>(e), gather(du, e), closing);
   }
   void move(Real length) {
     if constexpr (stiff) dilatations_.move(length);

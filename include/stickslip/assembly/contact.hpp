@@ -303,11 +303,13 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     pressures_.begin();
     if constexpr (with_friction) std::fill(turning_.begin(), turning_.end(), Turning{});
   }
-  /// Makes the pressures follow the change du of the displacements.
-  void follow(const Field& du) {
-    for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_.follow(k, du.template segment<dim>(nodes_[k] * dim));
+  /// Makes the pressures follow the change du of the displacements, and close a share of their defects.
+  void follow(const Field& du, Real closing) {
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      pressures_.follow(k, du.template segment<dim>(nodes_[k] * dim), closing);
     if constexpr (with_friction)
       for (Turning& t : turning_) {
+        if (closing == 0) break;  // a probe of the tangent is no step of the iteration
         if (t.held) t.now.setZero();
         t = {.before = t.now, .now = t.now, .again = t.again || t.turned};
       }

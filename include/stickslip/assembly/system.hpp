@@ -150,10 +150,11 @@ class System {
     body_.begin_iteration();
     if constexpr (with_contact) for_each_contact(pairs_, [](auto& pair) { pair.begin_iteration(); });
   }
-  /// Makes the stiff relations' variables follow the change du of the displacements that a linear solution gave.
-  void follow(const Field& du) {
-    body_.follow(du);
-    if constexpr (with_contact) for_each_contact(pairs_, [&](auto& pair) { pair.follow(du); });
+  /// Makes the stiff relations' variables follow the change du of the displacements that a linear solution gave, and
+  /// close their defects, or a share of them.
+  void follow(const Field& du, Real closing = 1) {
+    body_.follow(du, closing);
+    if constexpr (with_contact) for_each_contact(pairs_, [&](auto& pair) { pair.follow(du, closing); });
   }
   /// Goes to a part of the changes of the last `follow`.
   void move(Real length) {

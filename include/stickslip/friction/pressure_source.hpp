@@ -22,7 +22,7 @@ struct CurrentPressure {
 };
 
 /// The normal force of the iterate in the residual, the tangent's share of it symmetrised: the exact answer by
-/// symmetric systems, at more iterations (theory.md, section 5.9).
+/// symmetric systems, with what they lack found out by differences of the residual (theory.md, section 5.9).
 struct Symmetrised : CurrentPressure {
   static constexpr bool symmetrised = true;
 };

@@ -2,16 +2,14 @@
 #pragma once
 
 #include <stickslip/base/archive.hpp>
+#include <stickslip/base/minimal_residual.hpp>
 #include <stickslip/policy/linear_solver.hpp>
-
-#include <cmath>
-#include <vector>
 
 namespace stickslip {
 
 /// A symmetric direct solver made a solver of the exact, non-symmetric tangent of friction. The matrix is stored and
-/// factorised as a symmetric one, K_s, without the couplings C of the sliding nodes; GMRES solves (1 + C K_s^-1) y = b,
-/// x = K_s^-1 y, on its factor (theory.md, section 6.5). An iteration takes one back-substitution.
+/// factorised as a symmetric one, K_s, without the couplings C of the sliding nodes; (1 + C K_s^-1) y = b, x = K_s^-1
+/// y, is solved by minimal residuals on its factor (theory.md, section 6.5). An iteration takes one back-substitution.
 template <class Symmetric>
 class Corrected {
   static_assert(LinearSolverPolicy<Symmetric> && Symmetric::storage == Symmetry::symmetric,
@@ -28,11 +26,7 @@ class Corrected {
   void analyze(const SparseView& pattern) {
     solver_.analyze(pattern);
     size_ = pattern.size;
-    basis_.clear();
-    solved_.clear();
-    rotations_.assign(static_cast<std::size_t>(most), {});
-    upper_.assign(static_cast<std::size_t>(most * (most + 1) / 2), 0.0);
-    right_.assign(static_cast<std::size_t>(most) + 1, 0.0);
+    krylov_.resize(size_);
   }
   Factorization factorize(const SparseView& matrix) {
     corrections_ = matrix.corrections;
@@ -45,49 +39,17 @@ class Corrected {
     const Real size = b.norm();
     x.setZero();
     if (!(size > 0)) return size == 0;
-    vector(basis_, 0) = b / size;
-    right_[0] = size;
-    Index n = 0;
-    while (n < most) {
-      Field& z = vector(solved_, n);
-      Field& w = vector(basis_, n + 1);
-      if (!solver_.solve(basis_[static_cast<std::size_t>(n)].data(), z.data())) return false;
-      w = basis_[static_cast<std::size_t>(n)];
-      add_corrections(z, w);
+    krylov_.begin(b);
+    while (krylov_.count() < most && krylov_.residual().norm() > tolerance * size) {
+      const Field& y = krylov_.next();
+      if (!solver_.solve(y.data(), krylov_.step().data())) return false;
+      krylov_.response() = y;
+      add_corrections(krylov_.step(), krylov_.response());
       ++inner_iterations_;
-      // Modified Gram-Schmidt, then the rotations that keep the triangle.
-      Real* column = upper_.data() + n * (n + 1) / 2;
-      for (Index i = 0; i <= n; ++i) {
-        column[i] = w.dot(basis_[static_cast<std::size_t>(i)]);
-        w -= column[i] * basis_[static_cast<std::size_t>(i)];
-      }
-      Real below = w.norm();
-      if (below > 0) w /= below;
-      for (Index i = 0; i < n; ++i) {
-        const auto [c, s] = rotations_[static_cast<std::size_t>(i)];
-        const Real upper = column[i], lower = column[i + 1];
-        column[i] = c * upper + s * lower;
-        column[i + 1] = c * lower - s * upper;
-      }
-      const Real r = std::hypot(column[n], below);
-      if (!(r > 0)) return false;
-      rotations_[static_cast<std::size_t>(n)] = {column[n] / r, below / r};
-      column[n] = r;
-      right_[static_cast<std::size_t>(n) + 1] = -below / r * right_[static_cast<std::size_t>(n)];
-      right_[static_cast<std::size_t>(n)] *= rotations_[static_cast<std::size_t>(n)].cosine;
-      ++n;
-      if (std::abs(right_[static_cast<std::size_t>(n)]) <= tolerance * size) break;
+      if (!krylov_.add()) break;
     }
-    if (std::abs(right_[static_cast<std::size_t>(n)]) > 1e-3 * size) return false;
-    for (Index i = n - 1; i >= 0; --i) {
-      Real y = right_[static_cast<std::size_t>(i)];
-      for (Index j = i + 1; j < n; ++j)
-        y -= upper_[static_cast<std::size_t>(j * (j + 1) / 2 + i)] * right_[static_cast<std::size_t>(j)];
-      y /= upper_[static_cast<std::size_t>(i * (i + 1) / 2 + i)];
-      right_[static_cast<std::size_t>(i)] = y;
-      x += y * solved_[static_cast<std::size_t>(i)];
-    }
-    return true;
+    x = krylov_.solution();
+    return krylov_.residual().norm() <= 1e-3 * size;
   }
 
   void serialize(Archive& archive) requires requires(Symmetric& s) { s.serialize(archive); }
@@ -97,16 +59,6 @@ class Corrected {
   Index inner_iterations() const { return inner_iterations_; }
 
  private:
-  struct Rotation {
-    Real cosine = 1, sine = 0;
-  };
-
-  // Vectors are made when they are needed for the first time.
-  Field& vector(std::vector<Field>& list, Index k) {
-    while (static_cast<Index>(list.size()) <= k) list.emplace_back(Field::Zero(size_));
-    return list[static_cast<std::size_t>(k)];
-  }
-
   void add_corrections(const Field& z, Field& w) const {
     const NodeBlocks& c = corrections_;
     for (Index k = 0; k < c.count; ++k) {
@@ -122,9 +74,7 @@ class Corrected {
   Symmetric solver_;
   NodeBlocks corrections_{};
   Index size_ = 0, inner_iterations_ = 0;
-  std::vector<Field> basis_, solved_;  // orthonormal vectors, and K_s^-1 of them
-  std::vector<Rotation> rotations_;
-  std::vector<Real> upper_, right_;  // the triangle by columns, and the right-hand side of the small system
+  MinimalResidual krylov_;
 };
 
 }  // namespace stickslip

@@ -163,6 +163,15 @@ struct Frictions {
                                             return false;
                                         }()) ||
                                        ...);
+  static constexpr bool any_symmetrised =
+      ((F::active &&
+        [] {
+          if constexpr (F::active)
+            return F::Law::depends_on_pressure && is_symmetrised<typename F::Pressure>();
+          else
+            return false;
+        }()) ||
+       ...);
   static constexpr bool any_anisotropic = (is_anisotropic<typename F::Law> || ...);
 };
 template <class F>
@@ -186,6 +195,9 @@ inline constexpr bool friction_is_iterated = detail::FrictionsOf<F>::type::any_i
 /// Whether a bound lags behind the pressure and can be asked what another pressure would do.
 template <class F>
 inline constexpr bool friction_lags = detail::FrictionsOf<F>::type::any_lagging;
+/// Whether the tangent is only near the residual's derivative.
+template <class F>
+inline constexpr bool friction_is_symmetrised = detail::FrictionsOf<F>::type::any_symmetrised;
 /// Whether a bound depends on the direction.
 template <class F>
 inline constexpr bool friction_is_anisotropic = detail::FrictionsOf<F>::type::any_anisotropic;

@@ -41,6 +41,17 @@ constexpr bool has_lag() {
     return friction_lags<typename Model::Friction>;
 }
 
+/// True when the matrix is only near the residual's derivative: what it lacks Newton's method must find out.
+template <class Model>
+constexpr bool has_near_tangent() {
+  if constexpr (!has_contact<Model>)
+    return false;
+  else if constexpr (!Model::Friction::active)
+    return false;
+  else
+    return friction_is_symmetrised<typename Model::Friction>;
+}
+
 /// True when the bundle has inertia.
 template <class Model>
 inline constexpr bool has_inertia = Model::Inertia::active;

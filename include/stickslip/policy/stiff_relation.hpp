@@ -44,10 +44,10 @@ class StiffRelations {
   void commit() {
     for (std::size_t k = 0; k < now_.size(); ++k) converged_[k] = now_[k].value;
   }
-  /// Makes the value follow the change du of its displacements.
-  void follow(std::size_t k, const Vec<Real, n>& du) {
+  /// Makes the value follow the change du of its displacements, and close a share of its defect.
+  void follow(std::size_t k, const Vec<Real, n>& du, Real closing) {
     start_[k] = now_[k].value;
-    step_[k] = now_[k].defect + now_[k].slope.dot(du);
+    step_[k] = closing * now_[k].defect + now_[k].slope.dot(du);
   }
   /// Goes to a part of the changes of the last `follow`.
   void move(Real length) {

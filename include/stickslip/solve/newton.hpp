@@ -2,6 +2,8 @@
 #pragma once
 
 #include <stickslip/assembly/system.hpp>
+#include <stickslip/base/minimal_residual.hpp>
+#include <stickslip/base/nothing.hpp>
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
@@ -32,12 +34,13 @@ struct WorkCounts {
   Index factorizations = 0;
   Index indefinite_factorizations = 0;
   Index line_search_cuts = 0;
-  Index corrections = 0;  ///< back-substitutions of a solver that corrects a symmetric factor
+  Index corrections = 0;  ///< back-substitutions that correct a symmetric factor
 };
 
 /// Newton's method on the displacements and the stiff relations' variables, with a line search. Work space and the
-/// solver's analysis outlast the calls; nothing is allocated in the loop.
-template <class Solver>
+/// solver's analysis outlast the calls; nothing is allocated in the loop. With a tangent that is only near the
+/// residual's derivative, what it lacks is found out where its step does not do (theory.md, section 5.9).
+template <class Solver, bool near_tangent = false>
 class Newton {
  public:
   explicit Newton(const NewtonOptions& chosen = {}) : options(chosen) {}
@@ -87,10 +90,18 @@ class Newton {
       const Real merit = system.merit();
       Real length = 1;
       Trouble trouble;
-      for (Index cut = 0;; ++cut) {
+      const auto go = [&] {
         u = start_ + length * change_;
         system.move(length);
         trouble = system.iterate(u, time, dt);
+      };
+      go();
+      if constexpr (near_tangent)
+        if (trouble || !(system.merit() < 0.5 * merit)) {
+          if ((report.trouble = correct(system, u, time, dt))) return report;
+          go();
+        }
+      for (Index cut = 0;; ++cut) {
         const bool better = !trouble && system.merit() < merit;
         if (better || (!trouble && !options.line_search)) {
           stalls = 0;
@@ -105,6 +116,7 @@ class Newton {
         ++counts.line_search_cuts;
         const Real ratio = trouble ? 4.0 : system.merit() / merit;
         length *= std::clamp(0.5 / ratio, 0.25, 0.5);
+        go();
       }
       if (trouble || stalls > 1) {
         report.trouble = trouble ? trouble : Trouble{Cause::stalled, {}};
@@ -131,6 +143,7 @@ class Newton {
     step_.setZero(system.dofs().unknowns());
     start_.setZero(system.dofs().components());
     change_ = start_;
+    if constexpr (near_tangent) probes_.krylov.resize(system.dofs().unknowns());
     analyzed_ = system.pattern_revision();
   }
 
@@ -155,6 +168,46 @@ class Newton {
     return {};
   }
 
+  // Makes step_, which the near tangent gave, the step of the tangent itself, whose products are differences of the
+  // residual along steps short enough for round-off and curvature to be alike. From start_, and back to it.
+  template <class System>
+  Trouble correct(System& system, Field& u, Real time, Real dt) requires near_tangent {
+    constexpr Real tolerance = 0.01, length = 1e-8;
+    constexpr Index most = 30;
+    MinimalResidual& krylov = probes_.krylov;
+    u = start_;
+    system.move(0);
+    if (const Trouble t = system.iterate(u, time, dt)) return t;
+    probes_.residual = system.residual();
+    krylov.begin(probes_.residual);
+    while (krylov.count() < most && krylov.residual().norm() > tolerance * probes_.residual.norm()) {
+      Field& z = krylov.step();
+      if (krylov.count() == 0)
+        z = step_;
+      else if (!solver_.solve(krylov.next().data(), z.data()))
+        return {Cause::singular_matrix, {}};
+      const Real part = length * system.extent() / z.template lpNorm<Eigen::Infinity>();
+      change_.setZero();
+      system.dofs().scatter_add(-part, z, change_);  // the way the step goes: there may be a kink
+      system.follow(change_, 0);
+      u = start_ + change_;
+      system.move(1);
+      const Trouble trouble = system.iterate(u, time, dt);
+      system.move(0);
+      if (trouble) break;
+      ++counts.corrections;
+      krylov.response() = (probes_.residual - system.residual()) / part;
+      if (!krylov.add()) break;
+    }
+    u = start_;
+    if (const Trouble t = system.iterate(u, time, dt)) return t;
+    step_ = krylov.solution();
+    change_.setZero();
+    system.dofs().scatter_add(-1, step_, change_);
+    system.follow(change_);
+    return {};
+  }
+
   Index corrections_so_far() const {
     if constexpr (requires { solver_.inner_iterations(); }) return solver_.inner_iterations();
     return 0;
@@ -162,6 +215,11 @@ class Newton {
 
   Solver solver_;
   Field step_, start_, change_;
+  struct Probes {
+    MinimalResidual krylov;
+    Field residual;
+  };
+  [[no_unique_address]] Only<near_tangent, Probes, Solver> probes_;
   Index analyzed_ = 0;
 };
 
