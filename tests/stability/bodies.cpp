@@ -40,7 +40,7 @@ const Hard incompressible("materials", "nu = 0.4999, 0.49999, 0.4999999: squeeze
                               }
                           });
 const Hard indented(
-    "materials", "nu = 0.4999 and 0.49999 under a rough disc", "5 of Coulomb x solvers",
+    "materials", "nu = 0.4999 and 0.49999 under a rough disc", "6 of Coulomb x solvers",
     "forces as they are for 0.499, by the difference of nu", [](Case& c) {
       for (const Bundle& b : elastic()) {
         const auto force = [&](Real nu) {
@@ -202,7 +202,7 @@ Scenery over_edge(const rigid::Profile& table, Real mu, Index count, Real far = 
   return s;
 }
 const Hard edges("tools", "nodes that leave a table: open end, sharp corner, fillet of half an element",
-                 "5 of Coulomb x solvers",
+                 "6 of Coulomb x solvers",
                  "support and tool in balance; without friction the field does not know the steps", [](Case& c) {
                    const rigid::Profile tables[] = {
                        rigid::path({-9, 0}, {1, 0}).straight(12.3),
@@ -225,20 +225,21 @@ const Hard edges("tools", "nodes that leave a table: open end, sharp corner, fil
                    c.small(apart(few.u, many.u), 1e-7, "field");
                  });
 const Hard small_fillet(
-    "tools", "nodes pulled over a fillet of a fifth of an element", "5 of Coulomb x solvers",
-    "refused where a node snaps off; last state in balance", [](Case& c) {
+    "tools", "nodes pulled over a fillet of a fifth of an element", "6 of Coulomb x solvers",
+    "refused where a node snaps off, or past it; last state in balance", [](Case& c) {
       for (const Bundle& b : elastic()) {
         Scenery s = over_edge(rigid::path({-9, 0}, {1, 0}).straight(12.2).right(0.1, 0.5 * pi).straight(5), 0.2, 40);
         s.marches[1].smallest = 1e-6;
         Real top = 0;
         const Played p = b.play(s, [&](const Moment& m) { top = m.reaction("top", 1); });
         take(c, p, 1e-3);
-        c.refused_for(p.outcome().trouble.cause, {Cause::not_converged, Cause::stalled, Cause::tunnelled},
-                      b.name + ": " + p.outcome().message());
+        if (!p.outcome() || b.name[0] != 'S')  // whose iteration finds the balance beyond
+          c.refused_for(p.outcome().trouble.cause, {Cause::not_converged, Cause::stalled, Cause::tunnelled},
+                        b.name + ": " + p.outcome().message());
         c.near(top, p.forces[0][1], 1e-6, b.name + ": balance");
       }
     });
-const Hard joints("tools", "a table of 100 pieces whose joints lie under the nodes", "5 of Coulomb x solvers",
+const Hard joints("tools", "a table of 100 pieces whose joints lie under the nodes", "6 of Coulomb x solvers",
                   "field of a table of one piece", [](Case& c) {
                     auto pieces = rigid::path({-10, 0}, {1, 0});
                     for (int i = 0; i < 200; ++i) pieces.straight(0.125);
@@ -249,7 +250,7 @@ const Hard joints("tools", "a table of 100 pieces whose joints lie under the nod
                     }
                   });
 const Hard centre(
-    "tools", "a node exactly at the centre of a small disc", "5 of Coulomb x solvers",
+    "tools", "a node exactly at the centre of a small disc", "6 of Coulomb x solvers",
     "it is pushed out, to the radius", [](Case& c) {
       for (const Bundle& b : elastic()) {
         Scenery s{.body = mesh::rectangle({.size = {4, 2}, .cells = {8, 4}}), .young = 1000};
@@ -284,7 +285,7 @@ const Hard touch(
 
 // --- scales
 
-const Hard units("scales", "mm, m and um; Pa to GPa; offsets of 1e6", "5 of Coulomb x solvers",
+const Hard units("scales", "mm, m and um; Pa to GPa; offsets of 1e6", "6 of Coulomb x solvers",
                  "one answer in all units", [](Case& c) {
                    for (const Bundle& b : elastic()) {
                      const auto played = [&](Real l, Real stress, Real offset) {
@@ -326,7 +327,7 @@ const Hard shapes(
         }
     });
 const Hard lone(
-    "scales", "one element on one contact node", "5 of Coulomb x solvers",
+    "scales", "one element on one contact node", "6 of Coulomb x solvers",
     "force of the node = of the support = stiffness x depth", [](Case& c) {
       for (const Bundle& b : elastic()) {
         Scenery s{.body = mesh::rectangle({}), .young = 1000};
@@ -355,7 +356,7 @@ Scenery column(const std::function<Real(Real)>& press, const std::function<Real(
   return s;
 }
 const Hard buckling(
-    "instabilities", "a column buckles onto a wall", "Frictionless; 5 of Coulomb x solvers",
+    "instabilities", "a column buckles onto a wall", "Frictionless; 6 of Coulomb x solvers",
     "Euler's load by the column's own bending stiffness; at the wall: books close, laws agree at mu = 0", [](Case& c) {
       // F = 192 EI w / L^3 gives EI, P = 4 pi^2 EI / L^2.
       Scenery bent = column([](Real) { return 0.0; }, [](Real t) { return 0.01 * t; });
@@ -412,7 +413,7 @@ const Hard rough_wall(
 
 // A shallow arch, clamped at its feet, pushed down at its crown by a disc.
 const Hard snap(
-    "instabilities", "a shallow arch snaps through under a disc", "Frictionless; 5 of Coulomb x solvers",
+    "instabilities", "a shallow arch snaps through under a disc", "Frictionless; 6 of Coulomb x solvers",
     "force rises and falls; without friction all work is stored energy; books close", [](Case& c) {
       const auto arch = [](Real mu) {
         Scenery s{.body = mesh::rectangle({.size = {20, 0.25}, .cells = {80, 2}}), .young = 1e4, .poisson = 0};

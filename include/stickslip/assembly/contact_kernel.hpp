@@ -137,11 +137,8 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     for (int k = 0; k < m; ++k) out.stiffness += at.hess_place[static_cast<std::size_t>(k)] * end.traction[k];
     if constexpr (follows_pressure) {
       by_pressure += at.grad_place * end.d_pressure;
-      const Mat<S, dim> coupling = at.grad_place * end.d_pressure * at.normal.transpose() * S(-normal.d_gap);
-      if constexpr (is_symmetrised<Pressure>())
-        out.stiffness += (coupling + coupling.transpose()) * S(0.5);
-      else
-        out.coupling = coupling;
+      if constexpr (!is_symmetrised<Pressure>())
+        out.coupling = at.grad_place * end.d_pressure * at.normal.transpose() * S(-normal.d_gap);
     }
 
     out.bound = end.bound;

@@ -21,8 +21,8 @@ struct CurrentPressure {
   }
 };
 
-/// The normal force of the iterate in the residual, the tangent's share of it symmetrised: the exact answer by
-/// symmetric systems, with what they lack found out by differences of the residual (theory.md, section 5.9).
+/// The normal force of the iterate in the residual, and the symmetric tangent of one that stays as it is: the exact
+/// answer by symmetric systems, with what they lack found out by differences of the residual (theory.md, section 5.9).
 struct Symmetrised : CurrentPressure {
   static constexpr bool symmetrised = true;
 };

@@ -72,7 +72,7 @@ inline constexpr bool can_see = requires(const Real& pressure) {
   { Source::seeing(pressure) } -> std::same_as<typename Source::template Memory<Real>>;
 };
 
-/// Whether a source that follows the current pressure has its part of the tangent symmetrised.
+/// Whether a source that follows the current pressure leaves its part out of the tangent, which is symmetric then.
 template <class Source>
 constexpr bool is_symmetrised() {
   if constexpr (requires { Source::symmetrised; })

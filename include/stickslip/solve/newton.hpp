@@ -97,7 +97,7 @@ class Newton {
       };
       go();
       if constexpr (near_tangent)
-        if (trouble || !(system.merit() < 0.5 * merit)) {
+        if (trouble || !(system.merit() < 0.25 * merit)) {
           if ((report.trouble = correct(system, u, time, dt))) return report;
           go();
         }
@@ -172,7 +172,7 @@ class Newton {
   // residual along steps short enough for round-off and curvature to be alike. From start_, and back to it.
   template <class System>
   Trouble correct(System& system, Field& u, Real time, Real dt) requires near_tangent {
-    constexpr Real tolerance = 0.01, length = 1e-8;
+    constexpr Real tolerance = 1e-3, length = 1e-8;
     constexpr Index most = 30;
     MinimalResidual& krylov = probes_.krylov;
     u = start_;
