@@ -36,7 +36,7 @@ install() {
   rm -f "$log"
 }
 
-# build DIRECTORY [cmake options]: configures in Release and builds, $build_target alone if that is set.
+# build DIRECTORY [cmake options]: configures in Release and builds, $build_target alone (words) if that is set.
 build() {
   local directory=$1
   shift
@@ -46,7 +46,8 @@ build() {
     tail -n 20 "$directory.log" >&2
     fail "cmake could not configure; all it said is in $directory.log"
   }
-  cmake --build "$directory" ${build_target:+--target "$build_target"} >>"$directory.log" 2>&1 || {
+  # shellcheck disable=SC2086
+  cmake --build "$directory" ${build_target:+--target $build_target} >>"$directory.log" 2>&1 || {
     grep -E 'error|FAILED' "$directory.log" | head -n 20 >&2
     fail "the build failed; all it said is in $directory.log"
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/linear_solver/one_blas_thread.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
 #include <boost/graph/adjacency_list.hpp>
@@ -77,12 +78,14 @@ class BandLu {
                  static_cast<std::size_t>(rows()) * static_cast<std::size_t>(column)];
   }
   bool factorize() {
+    const OneBlasThread single;
     int info = 0;
     const int ld = rows();
     dgbtrf_(&n_, &n_, &k_, &k_, band_.data(), &ld, pivots_.data(), &info);
     return info == 0;
   }
   bool solve(Real* x) const {
+    const OneBlasThread single;
     int info = 0;
     const int ld = rows(), one = 1;
     dgbtrs_("N", &n_, &k_, &k_, &one, band_.data(), &ld, pivots_.data(), x, &n_, &info, 1);
@@ -121,6 +124,7 @@ class BandedCholesky {
   }
 
   Factorization factorize(const SparseView& matrix) {
+    const OneBlasThread single;
     std::fill(band_.begin(), band_.end(), 0.0);
     for (std::size_t e = 0; e < slots_.size(); ++e) band_[slots_[e]] = matrix.values[e];
     const int ld = k_ + 1;
@@ -139,6 +143,7 @@ class BandedCholesky {
   bool solve(const Real* right_hand_side, Real* solution) {
     for (std::size_t i = 0; i < permuted_.size(); ++i)
       permuted_[static_cast<std::size_t>(order_.place[i])] = right_hand_side[i];
+    const OneBlasThread single;
     int info = 0;
     const int ld = k_ + 1, one = 1;
     if (indefinite_)

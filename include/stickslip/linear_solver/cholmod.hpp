@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/linear_solver/one_blas_thread.hpp>
 #include <stickslip/linear_solver/refinement.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
@@ -48,6 +49,7 @@ class Cholmod {
 
   Factorization factorize(const SparseView& matrix) {
     if (!factor_) return Factorization::failed;
+    const OneBlasThread one;
     matrix_ = matrix;
     cholmod_sparse a = wrap(matrix);
     common_->final_ll = 0;
@@ -101,6 +103,7 @@ class Cholmod {
   }
 
   bool backsolve(const Real* b, Real* x) {
+    const OneBlasThread one;
     const auto n = static_cast<std::size_t>(matrix_.size);
     cholmod_dense rhs{};
     rhs.nrow = rhs.nzmax = rhs.d = n;

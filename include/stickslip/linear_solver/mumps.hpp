@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/linear_solver/one_blas_thread.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
 #include <dmumps_c.h>
@@ -93,6 +94,7 @@ class MumpsSolver {
 
  private:
   bool run(MUMPS_INT job) {
+    const OneBlasThread one;
     mumps_->job = job;
     dmumps_c(mumps_.get());
     return mumps_->infog[0] >= 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/linear_solver/one_blas_thread.hpp>
 #include <stickslip/linear_solver/refinement.hpp>
 
 #include <suitesparse/umfpack.h>
@@ -38,11 +39,13 @@ class Umfpack {
   }
 
   Factorization factorize(const SparseView& matrix) {
+    const OneBlasThread one;
     matrix_ = matrix;
     return factorize(0.1) ? Factorization::done : Factorization::failed;
   }
 
   bool solve(const Real* right_hand_side, Real* solution) {
+    const OneBlasThread one;
     const auto solved = [&] {
       return refinement_.solve(matrix_, right_hand_side, solution, [&](const Real* b, Real* x) {
         return umfpack_di_wsolve(UMFPACK_A, matrix_.column_start, matrix_.row, matrix_.values, x, b, numeric_,
