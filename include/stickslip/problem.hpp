@@ -335,16 +335,24 @@ void March<Model>::advance() {
                                .penetration = part(contact.stored),
                                .space = now_.step.errors.space};
       now_.predictor.take(work, dt);
-      if constexpr (has_lag<Model>())
-        if (feeds_back(u, time, dt, contact)) {
-          outcome_ = {.trouble = {Cause::lag_feeds_back, {}},
-                      .step = now_.report.steps + 1,
-                      .time = problem_.time_,
-                      .tried_step = dt,
-                      .attempts = rejected + 1};
-          ended_ = true;
-          return;
+      Cause refusal = Cause::none;
+      // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
+      if constexpr (!has_inertia<Model>)
+        if (problem_.last_dt_ == 0) {
+          driven_ = u - problem_.u_;
+          if (system.moves_freely(u, &driven_)) refusal = Cause::unsupported;
         }
+      if constexpr (has_lag<Model>())
+        if (refusal == Cause::none && feeds_back(u, time, dt, contact)) refusal = Cause::lag_feeds_back;
+      if (refusal != Cause::none) {
+        outcome_ = {.trouble = {refusal, {}},
+                    .step = now_.report.steps + 1,
+                    .time = problem_.time_,
+                    .tried_step = dt,
+                    .attempts = rejected + 1};
+        ended_ = true;
+        return;
+      }
       Real excess = 0;
       if (options_.lag_tolerance > 0) excess = errors.lag / options_.lag_tolerance;
       if (options_.step_tolerance > 0) excess = std::max(excess, errors.time / options_.step_tolerance);

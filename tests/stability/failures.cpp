@@ -142,6 +142,10 @@ const Hard unsupported("failures", "rigid-body motions that nothing resists", "n
                          const auto pull = [](Real t) { return 10 * t; };
                          lone([&](auto& p) { p.load("right", 0, pull); });
                          lone([&](auto& p) { p.hold("left", 1).load("right", 0, pull); });
+                         // Loads in balance with each other, along the free motion or not, do not hold it either.
+                         const auto back = [pull](Real t) { return -pull(t); };
+                         lone([&](auto& p) { p.load("right", 0, pull).load("left", 0, back); });
+                         lone([&](auto& p) { p.hold("left", 1).load("right", 0, pull).load("left", 0, back); });
                          auto pinned = mesh::rectangle({.size = {2, 1}, .cells = {4, 2}});
                          pinned.sides["pin"].nodes = {pinned.side("left").nodes[1]};
                          {

@@ -16,7 +16,10 @@ class Dofs {
 
   Dofs() = default;
   Dofs(Index components, const std::vector<bool>& is_constrained) : equation_(static_cast<std::size_t>(components)) {
-    for (std::size_t i = 0; i < equation_.size(); ++i) equation_[i] = is_constrained[i] ? constrained : unknowns_++;
+    for (std::size_t i = 0; i < equation_.size(); ++i) {
+      equation_[i] = is_constrained[i] ? constrained : unknowns_++;
+      if (!is_constrained[i]) component_.push_back(static_cast<Index>(i));
+    }
   }
   /// Number of unknowns.
   Index unknowns() const { return unknowns_; }
@@ -24,6 +27,8 @@ class Dofs {
   Index components() const { return static_cast<Index>(equation_.size()); }
   /// Equation of component node * dim + i, or `constrained`.
   Index equation(Index component) const { return equation_[static_cast<std::size_t>(component)]; }
+  /// Component of an equation.
+  Index component(Index equation) const { return component_[static_cast<std::size_t>(equation)]; }
 
   /// Picks the unknowns out of a nodal field.
   void gather(const Field& field, Field& unknowns) const {
@@ -43,7 +48,7 @@ class Dofs {
   }
 
  private:
-  std::vector<Index> equation_;
+  std::vector<Index> equation_, component_;
   Index unknowns_ = 0;
 };
 
