@@ -1,56 +1,63 @@
 // SPDX-License-Identifier: BSL-1.0
-// A scene of the plane in run-time terms, played by bundles that were compiled once: cases instantiate nothing.
+// A scene of the plane or of space in run-time terms, played by bundles that were compiled once: cases instantiate
+// nothing.
 #pragma once
 
 #include "suite.hpp"
 
-#include <stickslip/geometry/profile.hpp>
+#include <stickslip/geometry/tool.hpp>
 #include <stickslip/inertia/generalized_alpha.hpp>
 #include <stickslip/problem.hpp>
 #include <stickslip/verify/energy.hpp>
 
 namespace stability {
 
-struct Touch {
+template <int dim>
+struct TouchOf {
   std::string side;
-  rigid::Profile tool;
-  rigid::Motion<2> motion{};
+  rigid::Tool<dim> tool;
+  rigid::Motion<dim> motion{};
   Real mu = 0;
   Real normal = 1e5, tangential = 1e4;
   PenaltyPer per = PenaltyPer::unit_depth;
   std::string name = "tool";
+  Real across = 0;  ///< coefficient across the first axis, where the law has one
 };
 
-struct Scenery {
-  Mesh<2, 4> body;
+template <int dim>
+struct SceneryOf {
+  Mesh<dim, (1 << dim)> body;
   Real young = 1000, poisson = 0.3;
   Real yield = 0, hardening = 0, exponent = 1;  ///< strength and exponent of the power law, where that is the material
-  std::vector<Touch> contacts{};
+  std::vector<TouchOf<dim>> contacts{};
   std::vector<SideValue> driven{}, loads{};
   std::vector<MarchOptions> marches{};  ///< one after the other, whatever becomes of them
   Real density = 1, radius = 0.5;       ///< spectral radius of the time scheme
-  std::function<V(const V&)> velocity{};
+  std::function<Vec<Real, dim>(const Vec<Real, dim>&)> velocity{};
 };
 
 /// What can be seen after a converged step.
-struct Moment {
+template <int dim>
+struct MomentOf {
   const StepReport& step;
   const Field& u;
-  const std::vector<const ContactRecord<2>*>& contacts;
+  const std::vector<const ContactRecord<dim>*>& contacts;
   const std::function<Real(const std::string&, Index)>& reaction;
   const verify::Energies& energies;
 
-  V force(std::size_t contact = 0) const { return contacts[contact]->force(); }
+  Vec<Real, dim> force(std::size_t contact = 0) const { return contacts[contact]->force(); }
 };
-using Look = std::function<void(const Moment&)>;
+template <int dim>
+using LookOf = std::function<void(const MomentOf<dim>&)>;
 
 /// The end of a run.
-struct Played {
+template <int dim>
+struct PlayedOf {
   std::vector<Outcome> outcomes;
   RunReport report;  ///< sums of all marches
   Field u;
-  std::vector<V> forces;
-  std::vector<ContactNodeState<2>> nodes;  ///< of the first contact
+  std::vector<Vec<Real, dim>> forces;
+  std::vector<ContactNodeState<dim>> nodes;  ///< of the first contact
   verify::Energies energies;
   Real time = 0, plastic = 0;
   Real unbalanced = 0;  ///< largest defect of the energy books over the largest amount in them
@@ -58,12 +65,20 @@ struct Played {
   const Outcome& outcome() const { return outcomes.back(); }
 };
 
-struct Bundle {
+template <int dim>
+struct BundleOf {
   std::string name;
-  Played (*play)(const Scenery&, const Look&);
+  PlayedOf<dim> (*play)(const SceneryOf<dim>&, const LookOf<dim>&);
   bool lags = false;       ///< the bound is that of the last converged pressure
   bool augmented = false;  ///< no penetration is left
 };
+
+using Touch = TouchOf<2>;
+using Scenery = SceneryOf<2>;
+using Moment = MomentOf<2>;
+using Look = LookOf<2>;
+using Played = PlayedOf<2>;
+using Bundle = BundleOf<2>;
 /// Coulomb's friction on an elastic body, quasi-static: laws x solvers.
 const std::vector<Bundle>& elastic();
 /// The same, one of each law.
@@ -74,15 +89,35 @@ const std::vector<Bundle>& sheets();  ///< J2, power hardening, axisymmetric: la
 const std::vector<Bundle>& moving();  ///< elastic with inertia: laws
 const Bundle& tube();                 ///< J2, axisymmetric with inertia
 
+namespace space {
+using V = Vec<Real, 3>;
+using M3 = Mat<Real, 3>;
+using Touch = TouchOf<3>;
+using Scenery = SceneryOf<3>;
+using Moment = MomentOf<3>;
+using Look = LookOf<3>;
+using Played = PlayedOf<3>;
+using Bundle = BundleOf<3>;
+/// Coulomb's friction on an elastic body of hexahedra, quasi-static: laws x solvers.
+const std::vector<Bundle>& elastic();
+/// The same, one of each law.
+const Bundle &coulomb(), &quasi(), &augmented();
+const Bundle& smooth();               ///< frictionless, elastic
+const Bundle& anisotropic();          ///< Coulomb's friction with an elliptic bound
+const std::vector<Bundle>& moving();  ///< elastic with inertia: laws
+}  // namespace space
+
 /// Counts a run in a case and holds its books to a limit.
-inline void take(Case& c, const Played& played, Real limit = 1e-6) {
+template <int dim>
+void take(Case& c, const PlayedOf<dim>& played, Real limit = 1e-6) {
   c.counts(played.report.steps, played.report.iterations, played.report.rejected_steps);
   c.books(played.unbalanced, limit);
 }
 /// Plays a scene that must run to its end.
-inline Played completes(Case& c, const Bundle& bundle, const Scenery& scenery, const Look& look = {},
-                        Real limit = 1e-6) {
-  Played played = bundle.play(scenery, look);
+template <int dim>
+PlayedOf<dim> completes(Case& c, const BundleOf<dim>& bundle, const SceneryOf<dim>& scenery,
+                        const std::type_identity_t<LookOf<dim>>& look = {}, Real limit = 1e-6) {
+  PlayedOf<dim> played = bundle.play(scenery, look);
   take(c, played, limit);
   for (const Outcome& outcome : played.outcomes) c.require(bool(outcome), bundle.name + ": " + outcome.message());
   return played;
@@ -93,8 +128,8 @@ inline SideValue held(const char* side, Index component) {
 }
 
 /// One function for all bundles.
-template <class M>
-Played play(const Scenery& scenery, const Look& look) {
+template <class M, int dim = M::Kinematics::dim>
+PlayedOf<dim> play(const SceneryOf<dim>& scenery, const LookOf<dim>& look) {
   typename Problem<M>::Parameters parameters{.body = scenery.body};
   auto& material = parameters.material;
   material.young = scenery.young;
@@ -112,12 +147,17 @@ Played play(const Scenery& scenery, const Look& look) {
     parameters.inertia.scheme = chung_hulbert(scenery.radius);
   }
   if constexpr (has_contact<M>)
-    for (const Touch& t : scenery.contacts) {
+    for (const TouchOf<dim>& t : scenery.contacts) {
       Contact<M> contact{.side = t.side, .tool = t.tool, .motion = t.motion, .name = t.name};
       contact.enforcement.normal = t.normal;
       contact.enforcement.tangential = t.tangential;
       contact.enforcement.per = t.per;
-      if constexpr (has_friction<M>) contact.friction.mu = t.mu;
+      if constexpr (requires { contact.friction.mu_across; }) {
+        contact.friction.mu_along = t.mu;
+        contact.friction.mu_across = t.across;
+      } else if constexpr (has_friction<M>) {
+        contact.friction.mu = t.mu;
+      }
       parameters.contacts.push_back(contact);
     }
   Problem<M> problem(std::move(parameters));
@@ -126,8 +166,8 @@ Played play(const Scenery& scenery, const Look& look) {
   if constexpr (has_inertia<M>)
     if (scenery.velocity) problem.start_velocity(scenery.velocity);
 
-  Played out;
-  std::vector<const ContactRecord<2>*> records;
+  PlayedOf<dim> out;
+  std::vector<const ContactRecord<dim>*> records;
   if constexpr (has_contact<M>) problem.visit_contacts([&](const auto& pair) { records.push_back(&pair); });
   const std::function<Real(const std::string&, Index)> reaction = [&](const std::string& side, Index component) {
     return problem.reaction(side, component);
