@@ -149,8 +149,10 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
       if (problem.time_ == 0) {
         for_each_contact(problem.pairs_, [&](auto& pair) {
           if (const Trouble t = pair.start(problem.body_.mesh(), problem.u_, problem.time_))
-            throw std::invalid_argument("contact \"" + pair.name() +
-                                        "\": the tool's position or the distance to it is not finite at the start");
+            throw std::invalid_argument("contact \"" + pair.name() + "\": " +
+                                        (t.cause == Cause::not_rigid
+                                             ? describe(t.cause)
+                                             : "the tool's position or the distance to it is not finite at the start"));
         });
         if (const Trouble t = problem.system_->measure(problem.u_))
           throw std::invalid_argument(std::string("the start is not a state: ") + describe(t.cause));

@@ -596,6 +596,44 @@ const Hard cut("space: steps", "fail, cut, go on", all_laws, "field of the same 
                  }
                });
 
+// A chord of the way on a curved tool stands for its arc: of the bound, cos(half the angle of the step) is felt
+// (theory.md, section 4.4).
+const Hard spins("space: steps", "a ball that spins under load, 3 to 60 degrees a step", all_laws,
+                 "friction = mu N cos(angle / 2): second order in the step", [](Case& c) {
+                   for (const Bundle& b : elastic())
+                     for (const Real degrees : {3.0, 15.0, 60.0}) {
+                       const Real angle = degrees * pi / 180, mu = 0.3;
+                       Scenery s = on_a_tip(0, 1, 12, mu, mu);
+                       const M3 axis = turn({0, 0, 1}, 0.4);
+                       s.contacts[0].tool = rigid::sphere({0, 0, 0}, 0.5);
+                       s.contacts[0].motion = [=](Real t) {
+                         return turned(turn(axis * V(0, 1, 0), 12 * angle * late(t)), {0, 0, 0}, {0.5, 0.5, -0.5});
+                       };
+                       const Played p = completes(c, b, s, {}, 1);
+                       const V friction(p.forces[0][0], p.forces[0][1], 0);
+                       c.small(apart(friction, V(mu * p.forces[0][2] * std::cos(0.5 * angle) * (axis * V(1, 0, 0)))),
+                               1e-4, b.name + " at " + Case::number(degrees));
+                     }
+                 });
+const Hard first_order(
+    "space: steps", "a rough ball drawn askew over a block in 10 to 80 steps", "Coulomb; QuasiCoulomb; Hex8",
+    "error of the force against 320 steps falls at least as the step", [](Case& c) {
+      for (const Bundle* b : {&coulomb(), &quasi()}) {
+        const auto force = [&](Index count) {
+          return completes(c, *b, ironed(0.3, 100, 100, {steps(0.5, 10), steps(1, count)}, {3, 3, 1}), {}, 1).forces[0];
+        };
+        const V best = force(320);
+        Real before = 1;
+        for (const Index count : {10, 20, 40, 80}) {
+          const Real error = apart(force(count), best);
+          c.require(error < 0.7 * before,
+                    b->name + ": " + std::to_string(count) + " steps err by " + Case::number(error));
+          before = error;
+        }
+        c.small(before, 5e-3, b->name + ": 80 steps");
+      }
+    });
+
 // --- tools
 
 // A block on a table whose edge runs askew under it, pressed down and drawn over the edge.
@@ -882,6 +920,39 @@ const Hard supported(
       });
       c.small((support + V(0, 0.01, 0)).norm() / 0.01, 1e-8, "reactions");
     });
+
+// A function of time that makes a rotation with an error in it: a factor too much, two axes of three, a mirror.
+const Hard stretched("space: failures", "tools whose rotation stretches, mirrors, flattens, or is no number",
+                     "Coulomb; QuasiCoulomb; Hex8", "input error at the start; on the way named, with the last state",
+                     [](Case& c) {
+                       M3 mirror = M3::Identity(), flat = mirror, nothing = mirror;
+                       mirror(0, 0) = -1;
+                       flat(1, 1) = 0;
+                       nothing(2, 2) = std::numeric_limits<Real>::quiet_NaN();
+                       const M3 wrong[] = {nothing, 1.001 * M3::Identity(), mirror, flat};
+                       for (const Bundle* b : {&coulomb(), &quasi()})
+                         for (const M3& Q : wrong) {
+                           const auto after = [&](Real begin) {
+                             Scenery s = ironed(0.3, 100, 10, {}, {2, 2, 1});
+                             s.contacts[0].motion = [=](Real t) {
+                               return turned(t >= begin ? Q : M3::Identity(), {1.6, 1.5, 5}, {0, 0, -0.4 * t});
+                             };
+                             s.marches = {{.end = 0.5, .steps = 5, .tolerance = 1e-10},
+                                          {.end = 1, .steps = 5, .smallest = 0.03, .tolerance = 1e-10}};
+                             return s;
+                           };
+                           const bool number = !std::isnan(Q(2, 2));
+                           c.complains([&] { (void)b->play(after(0), {}); },
+                                       number ? "stretches or mirrors" : "not finite at the start");
+                           const Played p = b->play(after(0.501), {});
+                           take(c, p);
+                           c.refused_for(p.outcome().trouble.cause, {number ? Cause::not_rigid : Cause::not_finite},
+                                         b->name + ": " + p.outcome().message());
+                           Scenery half = after(2);
+                           half.marches.pop_back();
+                           c.small(apart(p.u, completes(c, *b, half).u), 0, b->name + ": the last state");
+                         }
+                     });
 
 // --- motion
 

@@ -140,8 +140,8 @@ TEST_CASE("an outcome says what, where, when and how often") {
   CHECK(placed(Place::Kind::contact_node).find("(contact node 5)") != std::string::npos);
   CHECK(placed(Place::Kind::nowhere).find("(") == std::string::npos);
   std::vector<std::string> texts;
-  for (const Cause c : {Cause::element_inverted, Cause::not_finite, Cause::material_failed, Cause::singular_matrix,
-                        Cause::not_converged, Cause::stalled}) {
+  for (const Cause c : {Cause::element_inverted, Cause::not_finite, Cause::not_rigid, Cause::material_failed,
+                        Cause::singular_matrix, Cause::not_converged, Cause::stalled}) {
     const std::string one = describe(c);
     CHECK(one != "nothing");
     CHECK(one != "an unknown cause");

@@ -288,6 +288,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   template <class MeshType>
   Trouble start(const MeshType& mesh, const Field& u, Real time) {
     const rigid::Pose<dim> pose = motion_.at(time);
+    if (const Trouble t = stretched(pose)) return t;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const SurfacePoint<Real, dim> at = seen_from_tool(mesh, u, pose, nodes_[k]);
       if (!std::isfinite(at.gap)) return {Cause::not_finite, {Place::Kind::contact_node, nodes_[k]}};
@@ -323,6 +324,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   Trouble assemble(const MeshType& mesh, const Field& u, Real time, Real dt, const Field* driven, Field& forces,
                    Field* excess, Matrix& matrix, [[maybe_unused]] Couplings& couplings) {
     const rigid::Pose<dim> pose = motion_.at(time);
+    if (const Trouble t = stretched(pose)) return t;
     summary_ = {};
     if constexpr (lags) dt_ = dt;
     trial_force_.setZero();
@@ -555,6 +557,11 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   static Vec<Real, dim> on_tool(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose, Index node) {
     const Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(node)] + u.template segment<dim>(node * dim);
     return pose.rotation.transpose() * (x - pose.translation);
+  }
+  // A pose that is finite but does not move the tool as a rigid body would; what is not finite tells its node.
+  Trouble stretched(const rigid::Pose<dim>& pose) const {
+    if (pose.rigid() || !pose.finite()) return {};
+    return {Cause::not_rigid, {Place::Kind::contact_node, nodes_[0]}};
   }
   // Distance, and the place where friction asks for it.
   template <class MeshType>

@@ -12,6 +12,7 @@ enum class Cause {
   none,              ///< it did not
   element_inverted,  ///< a deformation gradient with no positive determinant
   not_finite,        ///< a NaN or an infinity in a residual, a tangent, a load or a tool's position
+  not_rigid,         ///< a tool's pose whose rotation stretches or mirrors it
   material_failed,   ///< a material's own iteration did not converge
   friction_failed,   ///< a friction law's slip did not converge, or it softens faster than its stiffness can follow
   singular_matrix,   ///< the factorisation met a zero pivot: a rigid-body mode or a limit point
@@ -32,6 +33,8 @@ inline const char* describe(Cause cause) {
       return "an element turned inside out";
     case Cause::not_finite:
       return "a value was not finite";
+    case Cause::not_rigid:
+      return "a tool's rotation was not one: it stretches or mirrors the tool";
     case Cause::material_failed:
       return "a material's return map did not converge";
     case Cause::friction_failed:

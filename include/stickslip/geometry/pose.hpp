@@ -18,6 +18,18 @@ struct Pose {
   Vec<Real, dim> translation = Vec<Real, dim>::Zero();
 
   bool finite() const { return rotation.allFinite() && translation.allFinite(); }
+  /// Whether it keeps distances, to a millionth, and does not mirror.
+  bool rigid() const {
+    const Mat<Real, dim>& Q = rotation;
+    Real volume = 0;
+    if constexpr (dim == 2)
+      volume = Q(0, 0) * Q(1, 1) - Q(0, 1) * Q(1, 0);
+    else
+      for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i, ++i)
+        volume += Q(0, i) * (Q(1, j) * Q(2, k) - Q(1, k) * Q(2, j));
+    const Mat<Real, dim> product = Q.transpose() * Q;
+    return volume > 0 && (product - Mat<Real, dim>::Identity()).cwiseAbs().maxCoeff() <= 1e-6;
+  }
 };
 
 /// Turn by `angle` [rad, counter-clockwise] about `centre`, then `translation`.
