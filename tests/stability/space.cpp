@@ -690,9 +690,7 @@ const Hard layer(
     "space: tools", "a layer of hexahedra drawn over a sharp corner, half an element a step", all_laws,
     "force and field of plane strain", [](Case& c) {
       const Real thickness = 0.7;
-      const std::size_t same[] = {0, 1, 3, 4};
-      for (std::size_t k = 0; k < elastic().size(); ++k) {
-        const Bundle& b = elastic()[k];
+      for (const Bundle& b : elastic()) {
         Scenery s{.body = mesh::box({.size = {4, 2, thickness}, .cells = {8, 4, 1}})};
         stability::Scenery flat{.body = mesh::rectangle({.size = {4, 2}, .cells = {8, 4}})};
         const auto table = sharp(3.3);
@@ -712,7 +710,12 @@ const Hard layer(
         s.driven.push_back(held("front", 2));
         s.marches = flat.marches;
         const Played p = completes(c, b, s, {}, 1e-2);
-        const auto q = stability::elastic()[same[k]].play(flat, {});
+        const auto& plane = stability::elastic();
+        const auto twin =
+            std::find_if(plane.begin(), plane.end(), [&](const auto& other) { return other.name == b.name; });
+        c.require(twin != plane.end(), b.name + ": is there in the plane");
+        if (twin == plane.end()) continue;
+        const auto q = twin->play(flat, {});
         c.require(bool(q.outcome()), "in the plane: " + q.outcome().message());
         c.small((p.forces[0].head<2>() / thickness - q.forces[0]).norm() / q.forces[0].norm(), 1e-7,
                 b.name + ": force");
