@@ -4,14 +4,13 @@
 #include <stickslip/assembly/body.hpp>
 #include <stickslip/assembly/contact.hpp>
 #include <stickslip/assembly/inertia.hpp>
+#include <stickslip/assembly/rigid_motions.hpp>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -275,83 +274,17 @@ class System {
   }
 
   /// Whether nothing resists some rigid-body motion at the displacements u: no support, and not the tangent of the last
-  /// evaluation. Singular, then, is r.K r + c.c over these motions, r their unknown and c their constrained components.
-  /// With `moved`, whether besides that displacement has a part in it: what balance leaves open.
+  /// evaluation. With `moved`, whether besides that displacement has a part in it: what balance leaves open.
   bool moves_freely(const Field& u, const Field* moved = nullptr) const {
-    constexpr bool turned = Model::Kinematics::hoop;  // leaves the motion along the axis
-    constexpr int shifts = turned ? 1 : dim, count = turned ? 1 : dim + dim * (dim - 1) / 2;
-    const auto& nodes = body_.mesh().nodes;
-    Vec<Real, dim> centre = Vec<Real, dim>::Zero();
-    Real extent = 0;
-    for (const auto& X : nodes) centre += X / Real(nodes.size());
-    for (const auto& X : nodes) extent = std::max(extent, (X - centre).norm());
-    // Column k of component c.
-    const auto motion = [&](Index c, int k) -> Real {
-      const Index n = c / dim;
-      const int i = c % dim;
-      if (k < shifts) return i == (turned ? dim - 1 : k) ? 1 : 0;
-      const Vec<Real, dim> x =
-          (nodes[static_cast<std::size_t>(n)] + u.template segment<dim>(n * dim) - centre) / extent;
-      const int p = dim == 2 ? 0 : (k - shifts + 1) % 3, q = dim == 2 ? 1 : (k - shifts + 2) % 3;  // the plane it turns
-      return i == p ? -x[q] : i == q ? x[p] : 0;
-    };
-    Mat<Real, count> resistance = Mat<Real, count>::Zero();
-    for (Index c = 0; c < dofs_.components(); ++c) {
-      if (dofs_.equation(c) != Dofs::constrained) continue;
-      for (int k = 0; k < count; ++k)
-        for (int l = 0; l < count; ++l) resistance(k, l) += motion(c, k) * motion(c, l);
-    }
-    const SparseView m = matrix_.view();
-    const Real largest = matrix_.largest();
-    for (Index j = 0; j < m.size; ++j)
-      for (Index s = m.column_start[j]; s < m.column_start[j + 1]; ++s) {
-        const Index a = dofs_.component(m.row[s]), b = dofs_.component(j);
-        for (int k = 0; k < count; ++k)
-          for (int l = 0; l < count; ++l) {
-            const Real share = m.values[s] / largest;
-            resistance(k, l) += motion(a, k) * share * motion(b, l);
-            if (m.symmetry == Symmetry::symmetric && a != b) resistance(k, l) += motion(b, k) * share * motion(a, l);
-          }
-      }
-    // Elimination with the largest pivots first; one that is round-off tells. Out of balance by R, a stressed body that
-    // turns resists by |R| / extent.
-    const Real nothing = std::max(1e-11, moved ? 10 * norm_ / (largest * extent) : 0);
-    std::array<int, std::size_t(count)> order{};
-    std::iota(order.begin(), order.end(), 0);
-    for (int k = 0; k < count; ++k) {
-      int p = k, q = k;
-      for (int i = k; i < count; ++i)
-        for (int j = k; j < count; ++j)
-          if (std::abs(resistance(i, j)) > std::abs(resistance(p, q))) p = i, q = j;
-      if (!(std::abs(resistance(p, q)) > nothing)) {
-        if (!moved) return true;
-        // Free motions: each of those left, with what the resisted ones must do for it.
-        std::vector<Field> free;
-        Real share = 0;
-        for (int j = k; j < count; ++j) {
-          Vec<Real, count> part = Vec<Real, count>::Zero();
-          part[order[std::size_t(j)]] = 1;
-          for (int i = k - 1; i >= 0; --i) {
-            Real sum = resistance(i, j);
-            for (int l = i + 1; l < k; ++l) sum += resistance(i, l) * part[order[std::size_t(l)]];
-            part[order[std::size_t(i)]] = -sum / resistance(i, i);
-          }
-          Field r = Field::Zero(u.size());
-          for (Index c = 0; c < dofs_.components(); ++c)
-            for (int l = 0; l < count; ++l) r[c] += part[l] * motion(c, l);
-          for (const Field& other : free) r -= other.dot(r) * other;
-          free.push_back(r.normalized());
-          share = std::hypot(share, free.back().dot(*moved));
-        }
-        return share > 1e-6 * moved->norm();
-      }
-      resistance.row(k).swap(resistance.row(p));
-      resistance.col(k).swap(resistance.col(q));
-      std::swap(order[std::size_t(k)], order[std::size_t(q)]);
-      for (int i = k + 1; i < count; ++i)
-        resistance.row(i) -= resistance(i, k) / resistance(k, k) * Vec<Real, count>(resistance.row(k)).transpose();
-    }
-    return false;
+    const RigidMotions<typename Model::Kinematics> motions(body_.mesh().nodes, u);
+    const Real stiffness = matrix_.largest();
+    // Out of balance by R, a stressed body that turns resists by |R| / extent.
+    const Real least = std::max(1e-11, moved ? 10 * norm_ / (stiffness * motions.extent()) : 0);
+    const std::vector<Field> free = motions.unresisted(dofs_, matrix_.view(), stiffness, least);
+    if (!moved) return !free.empty();
+    Real share = 0;
+    for (const Field& r : free) share = std::hypot(share, r.dot(*moved));
+    return share > 1e-6 * moved->norm();
   }
 
   /// Whether a contact node has gone through its tool between the converged displacements `from` at the time `begin`

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/assembly/dofs.hpp>
+#include <stickslip/base/types.hpp>
+#include <stickslip/policy/linear_solver.hpp>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace stickslip {
+
+/// The motions of a body, where its nodal displacements have brought it, as if it were rigid: shifts, then turns about
+/// its centre by its extent's worth; in axisymmetry the shift along the axis alone.
+template <class Kinematics>
+class RigidMotions {
+ public:
+  static constexpr int dim = Kinematics::dim;
+  static constexpr int count = Kinematics::hoop ? 1 : dim + dim * (dim - 1) / 2;
+
+  RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Field& u) : nodes_(nodes), u_(u) {
+    for (const auto& X : nodes) centre_ += X / Real(nodes.size());
+    for (const auto& X : nodes) extent_ = std::max(extent_, (X - centre_).norm());
+  }
+
+  /// Largest distance of a node from the centre [length].
+  Real extent() const { return extent_; }
+
+  /// What each motion makes of nodal component c.
+  Vec<Real, count> at(Index c) const {
+    const Index n = c / dim;
+    const int i = c % dim;
+    Vec<Real, count> motions = Vec<Real, count>::Zero();
+    if constexpr (Kinematics::hoop) {
+      motions[0] = i == dim - 1 ? 1 : 0;
+    } else {
+      motions[i] = 1;
+      const Vec<Real, dim> x =
+          (nodes_[static_cast<std::size_t>(n)] + u_.template segment<dim>(n * dim) - centre_) / extent_;
+      for (int k = dim; k < count; ++k) {
+        const int p = dim == 2 ? 0 : (k - 2) % 3, q = dim == 2 ? 1 : (k - 1) % 3;  // the plane it turns
+        motions[k] = i == p ? -x[q] : i == q ? x[p] : 0;
+      }
+    }
+    return motions;
+  }
+
+  /// Those of their combinations, an orthonormal nodal field each, that neither supports nor the matrix K resist: the
+  /// kernel of r.K r / `stiffness` + c.c, r their unknown and c their constrained components, to `least`.
+  std::vector<Field> unresisted(const Dofs& dofs, const SparseView& matrix, Real stiffness, Real least) const {
+    Mat<Real, count> resistance = Mat<Real, count>::Zero();
+    for (Index c = 0; c < dofs.components(); ++c)
+      if (dofs.equation(c) == Dofs::constrained) resistance += at(c) * at(c).transpose();
+    for (Index j = 0; j < matrix.size; ++j) {
+      const Index b = dofs.component(j);
+      const Vec<Real, count> there = at(b) / stiffness;
+      for (Index s = matrix.column_start[j]; s < matrix.column_start[j + 1]; ++s) {
+        const Index a = dofs.component(matrix.row[s]);
+        const Mat<Real, count> part = matrix.values[s] * at(a) * there.transpose();
+        resistance += part;
+        if (matrix.symmetry == Symmetry::symmetric && a != b) resistance += part.transpose();
+      }
+    }
+    Eigen::FullPivLU<Mat<Real, count>> lu(resistance);
+    if (lu.maxPivot() > 0) lu.setThreshold(least / lu.maxPivot());
+    std::vector<Field> free;
+    if (lu.dimensionOfKernel() == 0) return free;
+    const Eigen::MatrixXd kernel = lu.kernel();
+    for (Index j = 0; j < kernel.cols(); ++j) {
+      Field r = Field::Zero(dofs.components());
+      for (Index c = 0; c < r.size(); ++c) r[c] = at(c).dot(kernel.col(j));
+      for (const Field& other : free) r -= other.dot(r) * other;
+      free.push_back(r.normalized());
+    }
+    return free;
+  }
+
+ private:
+  const std::vector<Vec<Real, dim>>& nodes_;
+  const Field& u_;
+  Vec<Real, dim> centre_ = Vec<Real, dim>::Zero();
+  Real extent_ = 0;
+};
+
+}  // namespace stickslip
