@@ -1,5 +1,5 @@
 # cmake -DCOMPILER= -DINCLUDES= -DSOURCE= -DSENTENCE= -P check.cmake: SOURCE must fail with one error, which says SENTENCE.
-# Without SENTENCE, the control build: SOURCE with -DCONTROL must compile.
+# Without SENTENCE, the control build: SOURCE with -DCONTROL must compile. PRELUDE, if any, is a header read beforehand.
 if(SENTENCE)
   set(control "")
 else()
@@ -10,8 +10,11 @@ set(flags "")
 foreach(folder IN LISTS folders)
   list(APPEND flags -I${folder})
 endforeach()
+if(PRELUDE)
+  list(APPEND flags -include ${PRELUDE})
+endif()
 set(ENV{LC_ALL} C)
-execute_process(COMMAND ${COMPILER} -std=c++20 -fsyntax-only ${flags} ${control} ${SOURCE}
+execute_process(COMMAND ${COMPILER} -std=c++20 -w -fsyntax-only ${flags} ${control} ${SOURCE}
                 RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(NOT SENTENCE)
   if(NOT code EQUAL 0)
