@@ -8,11 +8,11 @@
 #include "pictures.hpp"
 #include "record.hpp"
 
+#include <stickslip/advise.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
 #include <stickslip/io/vtu.hpp>
 #include <stickslip/problem.hpp>
-#include <stickslip/advise.hpp>
 #include <stickslip/verify/energy.hpp>
 
 #include <cmath>

@@ -29,6 +29,10 @@ class Wrapped : public AnySolver {
     if constexpr (requires { solver_.inner_iterations(); }) return solver_.inner_iterations();
     return 0;
   }
+  std::size_t factor_bytes() const override {
+    if constexpr (requires { solver_.factor_bytes(); }) return solver_.factor_bytes();
+    return 0;
+  }
   void serialize([[maybe_unused]] stickslip::Archive& archive) override {
     if constexpr (requires { solver_.serialize(archive); }) solver_.serialize(archive);
   }

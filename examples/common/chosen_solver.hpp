@@ -19,6 +19,7 @@ class AnySolver {
   virtual stickslip::Factorization factorize(const stickslip::SparseView& matrix) = 0;
   virtual bool solve(const double* right_hand_side, double* solution) = 0;
   virtual stickslip::Index inner_iterations() const = 0;
+  virtual std::size_t factor_bytes() const = 0;
   virtual void serialize(stickslip::Archive& archive) = 0;
 };
 
@@ -38,6 +39,7 @@ class ChosenSolver {
   stickslip::Factorization factorize(const stickslip::SparseView& matrix) { return solver_->factorize(matrix); }
   bool solve(const double* right_hand_side, double* solution) { return solver_->solve(right_hand_side, solution); }
   stickslip::Index inner_iterations() const { return solver_->inner_iterations(); }
+  std::size_t factor_bytes() const { return solver_->factor_bytes(); }
 
   void serialize(stickslip::Archive& archive) { solver_->serialize(archive); }
 

@@ -58,6 +58,7 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
   j["seconds_factorization"] = r.report.timings.factorization;
   j["seconds_solve"] = r.report.timings.solve;
   j["seconds_estimates"] = r.report.timings.estimates;
+  j["factor_mb"] = static_cast<double>(r.report.work.factor_bytes) / (1 << 20);
   j["peak_memory_mb"] = peak_memory_mb();
   j["max_penetration_mm"] = r.report.max_penetration;
   j["max_slip_mm"] = r.report.max_slip;

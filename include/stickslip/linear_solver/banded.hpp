@@ -91,6 +91,7 @@ class BandLu {
     dgbtrs_("N", &n_, &k_, &k_, &one, band_.data(), &ld, pivots_.data(), x, &n_, &info, 1);
     return info == 0;
   }
+  std::size_t bytes() const { return band_.size() * sizeof(Real) + pivots_.size() * sizeof(int); }
 
  private:
   int rows() const { return 3 * k_ + 1; }
@@ -156,6 +157,8 @@ class BandedCholesky {
   }
 
   Index half_bandwidth() const { return k_; }
+  /// Memory of the band that is factorised in place, and of the other one once a matrix was indefinite.
+  std::size_t factor_bytes() const { return band_.size() * sizeof(Real) + lu_.bytes(); }
 
  private:
   template <class Visit>
@@ -203,6 +206,8 @@ class BandedLu {
   }
 
   Index half_bandwidth() const { return order_.half_bandwidth; }
+  /// Memory of the band that is factorised in place, room for pivots included.
+  std::size_t factor_bytes() const { return lu_.bytes(); }
 
  private:
   detail::BandOrdering order_;

@@ -8,6 +8,7 @@
 #include <suitesparse/cholmod.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 
 namespace stickslip {
@@ -71,6 +72,11 @@ class Cholmod {
     if (!indefinite_) return backsolve(right_hand_side, solution);
     return refinement_.solve(matrix_, right_hand_side, solution,
                              [this](const Real* b, Real* x) { return backsolve(b, x); });
+  }
+  /// Memory of the last factor, its indices included.
+  std::size_t factor_bytes() const {
+    const cholmod_factor& f = indefinite_ ? *indefinite_factor_ : *factor_;
+    return f.is_super ? f.xsize * sizeof(Real) + f.ssize * sizeof(Index) : f.nzmax * (sizeof(Real) + sizeof(Index));
   }
 
  private:

@@ -57,6 +57,9 @@ class Corrected {
 
   /// Iterations of all solutions so far: back-substitutions.
   Index inner_iterations() const { return inner_iterations_; }
+  /// Memory of the symmetric factor.
+  std::size_t factor_bytes() const requires requires(const Symmetric& s) { s.factor_bytes(); }
+  { return solver_.factor_bytes(); }
 
  private:
   void add_corrections(const Field& z, Field& w) const {

@@ -7,6 +7,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <cstddef>
+
 namespace stickslip {
 
 /// Eigen's simplicial L D L^T with approximate minimum degree. It does not pivot: of an indefinite matrix the solution
@@ -32,6 +34,11 @@ class EigenLdlt {
     if (!indefinite_) return backsolve(right_hand_side, solution);
     return refinement_.solve(matrix_, right_hand_side, solution,
                              [this](const Real* b, Real* x) { return backsolve(b, x); });
+  }
+  /// Memory of the last factor, its indices included.
+  std::size_t factor_bytes() const {
+    const auto entries = static_cast<std::size_t>(solver_.matrixL().nestedExpression().nonZeros());
+    return entries * (sizeof(Real) + sizeof(Index)) + static_cast<std::size_t>(solver_.rows()) * sizeof(Real);
   }
 
  private:

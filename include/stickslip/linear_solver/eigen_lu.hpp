@@ -6,6 +6,8 @@
 
 #include <Eigen/SparseLU>
 
+#include <cstddef>
+
 namespace stickslip {
 
 /// Eigen's supernodal LU with partial pivoting and column approximate minimum degree. Takes every system.
@@ -24,6 +26,10 @@ class EigenLu {
     const auto n = solver_.rows();
     Eigen::Map<Field>(solution, n) = solver_.solve(Eigen::Map<const Field>(right_hand_side, n));
     return solver_.info() == Eigen::Success;
+  }
+  /// Memory of the last factor, its indices included.
+  std::size_t factor_bytes() const {
+    return static_cast<std::size_t>(solver_.nnzL() + solver_.nnzU()) * (sizeof(Real) + sizeof(Index));
   }
 
  private:

@@ -91,6 +91,14 @@ class MumpsSolver {
 
   /// Of the last factorisation of a symmetric system: as many as the matrix has negative eigenvalues.
   Index negative_pivots() const { return mumps_->infog[11]; }
+  /// Memory of the last factor, its indices included.
+  std::size_t factor_bytes() const {
+    const auto count = [&](int k) {  // MUMPS's INFOG(k + 1), negative if it stands for millions
+      const Real value = mumps_->infog[k];
+      return static_cast<std::size_t>(value < 0 ? -1e6 * value : value);
+    };
+    return count(8) * sizeof(Real) + count(9) * sizeof(MUMPS_INT);
+  }
 
  private:
   bool run(MUMPS_INT job) {

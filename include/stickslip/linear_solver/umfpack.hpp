@@ -7,6 +7,7 @@
 #include <suitesparse/umfpack.h>
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace stickslip {
@@ -55,6 +56,10 @@ class Umfpack {
     // In plastic flow's matrices the pivots that UMFPACK takes for good enough can grow to more than refinement mends.
     return solved() || (factorize(1) && solved());
   }
+  /// Memory of the last factor, its indices included.
+  std::size_t factor_bytes() const {
+    return static_cast<std::size_t>(info_[UMFPACK_NUMERIC_SIZE] * info_[UMFPACK_SIZE_OF_UNIT]);
+  }
 
  private:
   // With the largest pivot of a column for 1, one that is at least that part of it below.
@@ -63,10 +68,11 @@ class Umfpack {
     control_[UMFPACK_PIVOT_TOLERANCE] = pivot_tolerance;
     umfpack_di_free_numeric(&numeric_);
     return umfpack_di_numeric(matrix_.column_start, matrix_.row, matrix_.values, symbolic_, &numeric_, control_.data(),
-                              nullptr) == UMFPACK_OK;
+                              info_.data()) == UMFPACK_OK;
   }
 
   std::array<double, UMFPACK_CONTROL> control_{};
+  std::array<double, UMFPACK_INFO> info_{};
   void* symbolic_ = nullptr;
   void* numeric_ = nullptr;
   SparseView matrix_{};

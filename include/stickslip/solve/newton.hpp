@@ -8,6 +8,7 @@
 #include <stickslip/policy/linear_solver.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace stickslip {
@@ -34,7 +35,8 @@ struct WorkCounts {
   Index factorizations = 0;
   Index indefinite_factorizations = 0;
   Index line_search_cuts = 0;
-  Index corrections = 0;  ///< back-substitutions that correct a symmetric factor
+  std::size_t factor_bytes = 0;  ///< memory of the largest factor; 0 of a solver that does not tell
+  Index corrections = 0;         ///< back-substitutions that correct a symmetric factor
 };
 
 /// Newton's method on the displacements and the stiff relations' variables, with a line search. Work space and the
@@ -157,6 +159,8 @@ class Newton {
       ++counts.factorizations;
       if (f == Factorization::indefinite) ++counts.indefinite_factorizations;
       if (f == Factorization::failed) return {Cause::singular_matrix, {}};
+      if constexpr (requires { solver_.factor_bytes(); })
+        counts.factor_bytes = std::max(counts.factor_bytes, std::size_t(solver_.factor_bytes()));
     }
     const Stopwatch watch(system.timings.solve);
     const Index corrections = corrections_so_far();
