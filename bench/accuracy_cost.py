@@ -127,7 +127,7 @@ def measure(programs, name, scene, meshes, references, repeats):
             reference, worth = references[job[2]]
             off, of_final = error((r["history"]["displacement_mm"], r["history"]["force_N"]), reference, scene["until"])
             row |= {"unknowns": r["unknowns"], "steps": r["steps"], "iterations": r["iterations"], "factorizations": r["factorizations"],
-                    "rejected_steps": r["rejected_steps"], "peak_memory_mb": round(r["peak_memory_mb"], 1), "error": off,
+                    "rejected_steps": r["rejected_steps"], "factor_mb": round(r["factor_mb"], 3), "peak_memory_mb": round(r["peak_memory_mb"], 1), "error": off,
                     "error_of_final_force": of_final, "estimated_lag": r["estimated_error_lag"], "estimated_time": r["estimated_error_time"],
                     "reference_worth": worth, "seconds": statistics.median(seconds[job]),
                     "seconds_min": min(seconds[job]), "seconds_max": max(seconds[job])}
@@ -242,7 +242,7 @@ def main():
     wedge = subprocess.run([arguments.build / "bench" / "bench_wedge"], capture_output=True, text=True, check=True).stdout
     (arguments.out / "wedge.csv").write_text(wedge)
     columns = ["scene", "law", "solver", "mesh", "unknowns", "steps_asked", "completed", "steps", "iterations", "factorizations", "rejected_steps",
-               "peak_memory_mb", "error", "error_of_final_force", "estimated_lag", "estimated_time", "reference_worth", "seconds", "seconds_min", "seconds_max"]
+               "factor_mb", "peak_memory_mb", "error", "error_of_final_force", "estimated_lag", "estimated_time", "reference_worth", "seconds", "seconds_min", "seconds_max"]
     with open(arguments.out / "runs.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, columns)
         writer.writeheader()
