@@ -135,7 +135,7 @@ void print(const Row& row, std::optional<Vec<Real, 2>>& reference) {
 
 int main(int argc, char** argv) {
   Index refine = 1, steps = 100;
-  for (int i = 1; i < argc; ++i) {
+  for (int i = 1; i < argc; i += 2) {
     const bool known = !std::strcmp(argv[i], "--refine") || !std::strcmp(argv[i], "--steps");
     char* end = nullptr;
     const long value = known && i + 1 < argc ? std::strtol(argv[i + 1], &end, 10) : 0;
@@ -148,7 +148,6 @@ int main(int argc, char** argv) {
       return std::strcmp(argv[i], "--help") ? 2 : 0;
     }
     (std::strcmp(argv[i], "--refine") ? steps : refine) = static_cast<Index>(value);
-    ++i;
   }
   std::printf(
       "A roller pressed into a strip by 0.3 mm and drawn along by 4 mm; force on the roller at the end.\n"

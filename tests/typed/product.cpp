@@ -90,9 +90,10 @@ TEST_CASE("the product of all choices, what the contracts admit of it, and the c
     CHECK(valid.count(n) == 1);
     mark(split(n), covered);
   }
-  for (const auto& [a, x, b, y] : needed) {
-    INFO("choice " << x << " of axis " << a << " with choice " << y << " of axis " << b << ": no model runs");
-    CHECK(covered.count({a, x, b, y}) == 1);
+  for (const auto& pair : needed) {  // axis, choice, axis, choice
+    INFO("choice " << pair[1] << " of axis " << pair[0] << " with choice " << pair[3] << " of axis " << pair[2]
+                   << ": no model runs");
+    CHECK(covered.count(pair) == 1);
   }
   MESSAGE(product << " models in the product, " << valid.size() << " valid; " << needed.size()
                   << " pairs of choices, all in the " << cover.size() << " models that run");

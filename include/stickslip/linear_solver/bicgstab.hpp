@@ -78,7 +78,12 @@ class Bicgstab {
     return solver_.info() == Eigen::Success;
   }
 
-  Eigen::BiCGSTAB<EigenMatrix, Eigen::IncompleteLUT<Real, Index>> solver_;
+  // Eigen asks for the outcome before there is one.
+  struct IncompleteLu : Eigen::IncompleteLUT<Real, Index> {
+    IncompleteLu() { m_info = Eigen::Success; }
+  };
+
+  Eigen::BiCGSTAB<EigenMatrix, IncompleteLu> solver_;
   SparseView matrix_{};
   Refinement refinement_;
   Index iterations_ = 0;
