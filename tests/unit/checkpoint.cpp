@@ -380,7 +380,8 @@ TEST_CASE("damaged files are refused, and the problem is left alone") {
   };
   CHECK(framed(whole.substr(40), io::checkpoint_version) == whole);
   write(s.bad, framed(whole.substr(40), 7));
-  refused(*s.problem, s.march, s.bad, "is of version 7 of the format, this program reads version 1");
+  refused(*s.problem, s.march, s.bad,
+          "is of version 7 of the format, this program reads version " + std::to_string(io::checkpoint_version));
   for (const std::string& payload :
        {std::string(), "\x16" + std::string(7, '\0') + "another kind of archive", whole.substr(40, 1000)}) {
     write(s.bad, framed(payload, io::checkpoint_version));

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace stickslip {
@@ -30,13 +31,13 @@ struct NewtonReport {
   Real residual = 0;  ///< last residual over force scale [-]
 };
 
-/// Counts of work that outlive a step.
+/// Counts of work that outlive a step. Without padding: it stands in restart files as it is.
 struct WorkCounts {
+  std::size_t factor_bytes = 0;  ///< memory of the largest factor; 0 of a solver that does not tell
   Index factorizations = 0;
   Index indefinite_factorizations = 0;
   Index line_search_cuts = 0;
-  std::size_t factor_bytes = 0;  ///< memory of the largest factor; 0 of a solver that does not tell
-  Index corrections = 0;         ///< back-substitutions that correct a symmetric factor
+  Index corrections = 0;  ///< back-substitutions that correct a symmetric factor
 };
 
 /// Newton's method on the displacements and the stiff relations' variables, with a line search. Work space and the
