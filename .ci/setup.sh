@@ -36,7 +36,7 @@ install() {
   rm -f "$log"
 }
 
-# build DIRECTORY [cmake options]: configures in Release and builds, $build_target alone (words) if that is set.
+# build DIRECTORY [cmake options]: configures in Release and builds, only the targets that $build_target lists, if any.
 build() {
   local directory=$1
   shift
