@@ -22,34 +22,30 @@ inline constexpr bool has_friction = has_contact<Model>&& Model::Friction::activ
 /// True when a step takes several passes: multipliers, or a bound that is brought up to date.
 template <class Model>
 constexpr bool takes_passes() {
-  if constexpr (!has_contact<Model>)
-    return false;
-  else if constexpr (!Model::Friction::active)
+  if constexpr (has_friction<Model>)
+    return is_augmented<typename Model::Enforcement> || friction_is_iterated<typename Model::Friction>;
+  else if constexpr (has_contact<Model>)
     return is_augmented<typename Model::Enforcement>;
   else
-    return is_augmented<typename Model::Enforcement> || friction_is_iterated<typename Model::Friction>;
+    return false;
 }
 
 /// True when a bound lags behind the pressure and can be probed.
 template <class Model>
 constexpr bool has_lag() {
-  if constexpr (!has_contact<Model>)
-    return false;
-  else if constexpr (!Model::Friction::active)
-    return false;
-  else
+  if constexpr (has_friction<Model>)
     return friction_lags<typename Model::Friction>;
+  else
+    return false;
 }
 
 /// True when the matrix is only near the residual's derivative: what it lacks Newton's method must find out.
 template <class Model>
 constexpr bool has_near_tangent() {
-  if constexpr (!has_contact<Model>)
-    return false;
-  else if constexpr (!Model::Friction::active)
-    return false;
-  else
+  if constexpr (has_friction<Model>)
     return friction_is_symmetrised<typename Model::Friction>;
+  else
+    return false;
 }
 
 /// True when the bundle has inertia.
