@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
       .solvers = solvers.list(),
       .mu = 0.15,
       .parameters = {
-          {.name = "travel", .about = "punch travel in mm", .value = 40, .low = 0.1, .high = 500},
+          {.name = "travel", .about = "punch travel in mm", .value = 40, .low = 0.001, .high = 500},
           {.name = "solver-table",
            .about = "run with every solver that takes the system and print what an iteration costs",
            .names = {"off", "on"}},

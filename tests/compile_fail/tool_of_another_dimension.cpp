@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "bundle.hpp"
 
-#include <stickslip/assembly/contact.hpp>
+#include <stickslip/assembly/contact_pair.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 

@@ -21,57 +21,59 @@ class RigidMotions {
   static constexpr int dim = Kinematics::dim;
   static constexpr int count = Kinematics::hoop ? 1 : dim + dim * (dim - 1) / 2;
 
-  RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Field& u) : nodes_(nodes), u_(u) {
-    for (const auto& X : nodes) centre_ += X / Real(nodes.size());
-    for (const auto& X : nodes) extent_ = std::max(extent_, (X - centre_).norm());
+  RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Field& u) {
+    Vec<Real, dim> centre = Vec<Real, dim>::Zero();
+    for (const auto& X : nodes) centre += X / Real(nodes.size());
+    for (const auto& X : nodes) extent_ = std::max(extent_, (X - centre).norm());
+    motions_.assign(count, Field::Zero(u.size()));
+    for (Index c = 0; c < u.size(); ++c) {
+      const Index n = c / dim;
+      const int i = c % dim;
+      if constexpr (Kinematics::hoop) {
+        motions_[0][c] = i == dim - 1 ? 1 : 0;
+      } else {
+        const auto at = [&](int k) {
+          return (nodes[static_cast<std::size_t>(n)][k] + u[n * dim + k] - centre[k]) / extent_;
+        };
+        motion(i)[c] = 1;
+        for (int k = dim; k < count; ++k) {
+          const int p = dim == 2 ? 0 : (k - 2) % 3, q = dim == 2 ? 1 : (k - 1) % 3;  // the plane it turns
+          motion(k)[c] = i == p ? -at(q) : i == q ? at(p) : 0;
+        }
+      }
+    }
   }
 
   /// Largest distance of a node from the centre [length].
   Real extent() const { return extent_; }
 
-  /// What each motion makes of nodal component c.
-  Vec<Real, count> at(Index c) const {
-    const Index n = c / dim;
-    const int i = c % dim;
-    Vec<Real, count> motions = Vec<Real, count>::Zero();
-    if constexpr (Kinematics::hoop) {
-      motions[0] = i == dim - 1 ? 1 : 0;
-    } else {
-      motions[i] = 1;
-      const Vec<Real, dim> x =
-          (nodes_[static_cast<std::size_t>(n)] + u_.template segment<dim>(n * dim) - centre_) / extent_;
-      for (int k = dim; k < count; ++k) {
-        const int p = dim == 2 ? 0 : (k - 2) % 3, q = dim == 2 ? 1 : (k - 1) % 3;  // the plane it turns
-        motions[k] = i == p ? -x[q] : i == q ? x[p] : 0;
-      }
-    }
-    return motions;
-  }
-
   /// Those of their combinations, an orthonormal nodal field each, that neither supports nor the matrix K resist: the
   /// kernel of r.K r / `stiffness` + c.c, r their unknown and c their constrained components, to `least`.
   std::vector<Field> unresisted(const Dofs& dofs, const SparseView& matrix, Real stiffness, Real least) const {
-    Mat<Real, count> resistance = Mat<Real, count>::Zero();
+    // Of sizes known at run time alone, and entry by entry: quick to compile, and done once in a scene.
+    Eigen::MatrixXd resistance = Eigen::MatrixXd::Zero(count, count);
+    const auto resist = [&](Index a, Real value, Index b) {
+      for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) resistance(i, j) += motion(i)[a] * value * motion(j)[b];
+    };
     for (Index c = 0; c < dofs.components(); ++c)
-      if (dofs.equation(c) == Dofs::constrained) resistance += at(c) * at(c).transpose();
+      if (dofs.equation(c) == Dofs::constrained) resist(c, 1, c);
     for (Index j = 0; j < matrix.size; ++j) {
       const Index b = dofs.component(j);
-      const Vec<Real, count> there = at(b) / stiffness;
       for (Index s = matrix.column_start[j]; s < matrix.column_start[j + 1]; ++s) {
         const Index a = dofs.component(matrix.row[s]);
-        const Mat<Real, count> part = matrix.values[s] * at(a) * there.transpose();
-        resistance += part;
-        if (matrix.symmetry == Symmetry::symmetric && a != b) resistance += part.transpose();
+        resist(a, matrix.values[s] / stiffness, b);
+        if (matrix.symmetry == Symmetry::symmetric && a != b) resist(b, matrix.values[s] / stiffness, a);
       }
     }
-    Eigen::FullPivLU<Mat<Real, count>> lu(resistance);
+    Eigen::FullPivLU<Eigen::MatrixXd> lu(resistance);
     if (lu.maxPivot() > 0) lu.setThreshold(least / lu.maxPivot());
     std::vector<Field> free;
     if (lu.dimensionOfKernel() == 0) return free;
     const Eigen::MatrixXd kernel = lu.kernel();
     for (Index j = 0; j < kernel.cols(); ++j) {
       Field r = Field::Zero(dofs.components());
-      for (Index c = 0; c < r.size(); ++c) r[c] = at(c).dot(kernel.col(j));
+      for (int k = 0; k < count; ++k) r += kernel(k, j) * motion(k);
       for (const Field& other : free) r -= other.dot(r) * other;
       free.push_back(r.normalized());
     }
@@ -79,9 +81,10 @@ class RigidMotions {
   }
 
  private:
-  const std::vector<Vec<Real, dim>>& nodes_;
-  const Field& u_;
-  Vec<Real, dim> centre_ = Vec<Real, dim>::Zero();
+  Field& motion(int k) { return motions_[static_cast<std::size_t>(k)]; }
+  const Field& motion(int k) const { return motions_[static_cast<std::size_t>(k)]; }
+
+  std::vector<Field> motions_;
   Real extent_ = 0;
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <stickslip/assembly/body.hpp>
-#include <stickslip/assembly/contact.hpp>
+#include <stickslip/assembly/contact_pair.hpp>
 #include <stickslip/assembly/inertia.hpp>
 #include <stickslip/assembly/rigid_motions.hpp>
 

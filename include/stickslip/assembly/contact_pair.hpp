@@ -1,0 +1,517 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/assembly/contact.hpp>
+#include <stickslip/assembly/contact_kernel.hpp>
+#include <stickslip/assembly/contact_record.hpp>
+#include <stickslip/assembly/facet.hpp>
+#include <stickslip/assembly/node_couplings.hpp>
+#include <stickslip/assembly/sparse_matrix.hpp>
+#include <stickslip/base/relaxation.hpp>
+#include <stickslip/geometry/passage.hpp>
+#include <stickslip/geometry/pose.hpp>
+#include <stickslip/geometry/tool.hpp>
+#include <stickslip/mesh/mesh.hpp>
+#include <stickslip/policy/model.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace stickslip {
+
+/// A side of the body in contact with one rigid tool: memory of its nodes and the loop over them.
+template <class Model, class Friction_ = typename Model::Friction>
+class ContactPair : public ContactRecord<Model::Kinematics::dim> {
+ public:
+  using Friction = Friction_;
+  using Enforcement = typename Model::Enforcement;
+  using Tool = ToolOf<Model>;
+  static constexpr int dim = Model::Kinematics::dim;
+  static_assert(RigidTool<Tool, dim>,
+                "stickslip: the bundle's Tool does not meet RigidTool of its dimension; see docs/policies.md, section "
+                "Tool.");
+  using Memory = NodeMemory<Real, dim, Enforcement, Friction>;
+  using Matrix = SparseMatrix<matrix_storage<Model>>;
+  static constexpr bool with_friction = Friction::active;
+  static constexpr bool remembers = !std::is_empty_v<Memory>;
+  /// Whether steps take several passes for this pair.
+  static constexpr bool passes = is_augmented<Enforcement> || friction_is_iterated<Friction>;
+  /// Whether the bound lags behind the pressure, and can be told what to see.
+  static constexpr bool lags = friction_lags<Friction>;
+  /// Whether passes bring the bound up to date.
+  static constexpr bool iterates = friction_is_iterated<Friction>;
+  /// Whether the friction law looks at the area that a node carries.
+  static constexpr bool takes_area = [] {
+    if constexpr (with_friction)
+      return depends_on_area<typename Friction::Law>();
+    else
+      return false;
+  }();
+  /// Bytes that a contact node keeps for one state (there are two: converged and trial).
+  static constexpr std::size_t bytes_per_node = remembers ? sizeof(Memory) : 0;
+
+  template <class MeshType>
+  ContactPair(const Contact<Model, Friction>& contact, const MeshType& mesh,
+              const typename Model::Kinematics& kinematics)
+      : ContactRecord<dim>(contact.name, contact.side, contact.motion, mesh.side(contact.side).nodes),
+        tool_(contact.tool),
+        friction_(contact.friction),
+        enforcement_(contact.enforcement),
+        weight_(nodes_.size(), 0.0),
+        pressures_(nodes_.size()) {
+    if (nodes_.empty()) throw std::invalid_argument("contact \"" + name_ + "\": the side has no nodes");
+    for (const Index n : nodes_)
+      if (n < 0 || n >= mesh.node_count())
+        throw std::invalid_argument("contact \"" + name_ + "\": the side names a node that does not exist");
+    if (tool_.empty()) throw std::invalid_argument("contact \"" + name_ + "\": the tool has no surface");
+    if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
+    if constexpr (with_friction)
+      if constexpr (requires { friction_.validate(); }) friction_.validate();
+    if constexpr (with_friction)
+      if (!(enforcement_.stick_stiffness(1) > 0))
+        throw std::invalid_argument("contact \"" + name_ + "\": friction needs a positive tangential stiffness");
+    if constexpr (remembers) {
+      committed_.resize(nodes_.size());
+      trial_.resize(nodes_.size());
+    }
+    if constexpr (is_augmented<Enforcement>) stiffened_ = 1;
+    if constexpr (with_friction) turning_.resize(nodes_.size());
+    if constexpr (passes || lags) renewed_.resize(nodes_.size());
+    if constexpr (lags) {
+      felt_.setZero(static_cast<Index>(nodes_.size()));
+      changes_ = felt_;
+    }
+    spacing_ = spacings(mesh, this->side_);
+    poses_.reserve(5);  // of a tool that does not turn
+    weigh(mesh, kinematics);
+  }
+
+  const Tool& tool() const { return tool_; }
+  const Enforcement& enforcement() const { return enforcement_; }
+
+  void connect(const Dofs& equations, const Matrix& matrix) {
+    slots_.clear();
+    for (const Index n : nodes_) slots_.push_back(matrix.map(equations, components(n)));
+    if constexpr (keeps_couplings<Model>) {
+      equations_.clear();
+      for (const Index n : nodes_) {
+        equations_.push_back(components(n));
+        for (Index& e : equations_.back()) e = equations.equation(e);
+      }
+    }
+  }
+
+  /// Whether the penalties are in parts of the body's stiffness, which `measure` must tell before the first assembly.
+  bool needs_stiffness() const { return enforcement_.per == PenaltyPer::stiffness; }
+  /// Takes the body's stiffness at the nodes from its tangent: the mean over the free components; where a node has
+  /// none, the mean over the side.
+  void measure(const Dofs& equations, const Matrix& tangent) {
+    Real sum = 0;
+    Index found = 0;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      Real trace = 0;
+      Index free = 0;
+      for (const Index c : components(nodes_[k]))
+        if (const Index e = equations.equation(c); e != Dofs::constrained) {
+          trace += tangent.diagonal(e);
+          ++free;
+        }
+      weight_[k] = free > 0 && trace > 0 ? trace / free : 0;
+      sum += weight_[k];
+      found += weight_[k] > 0 ? 1 : 0;
+    }
+    if (found == 0)
+      throw std::invalid_argument("contact \"" + name_ +
+                                  "\": the body has no stiffness at any of its nodes; give the penalty another unit");
+    for (Real& w : weight_)
+      if (w == 0) w = sum / found;
+  }
+
+  static std::array<Index, static_cast<std::size_t>(dim)> components(Index node) {
+    std::array<Index, static_cast<std::size_t>(dim)> c;
+    for (std::size_t i = 0; i < c.size(); ++i) c[i] = node * dim + static_cast<Index>(i);
+    return c;
+  }
+
+  /// Takes the positions at `time` for the start of sliding.
+  template <class MeshType>
+  Trouble start(const MeshType& mesh, const Field& u, Real time) {
+    const rigid::Pose<dim> pose = motion_.at(time);
+    if (const Trouble t = stretched(pose)) return t;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const SurfacePoint<Real, dim> at = seen_from_tool(mesh, u, pose, nodes_[k]);
+      if (!std::isfinite(at.gap)) return {Cause::not_finite, {Place::Kind::contact_node, nodes_[k]}};
+      states_[k].gap = at.gap;
+      if constexpr (with_friction) committed_[k].friction.place = at.place;
+    }
+    if constexpr (passes || lags) begin_passes();
+    return {};
+  }
+
+  /// Begins an iteration: the pressures of the converged state become variables of their own.
+  void begin_iteration() {
+    pressures_.begin();
+    if constexpr (with_friction) std::fill(turning_.begin(), turning_.end(), Turning{});
+  }
+  /// Makes the pressures follow the change du of the displacements, and close a share of their defects.
+  void follow(const Field& du, Real closing) {
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      pressures_.follow(k, du.template segment<dim>(nodes_[k] * dim), closing);
+    if constexpr (with_friction)
+      for (Turning& t : turning_) {
+        if (closing == 0) break;  // a probe of the tangent is no step of the iteration
+        if (t.held) t.now.setZero();
+        t = {.before = t.now, .now = t.now, .again = t.again || t.turned};
+      }
+  }
+  void move(Real length) { pressures_.move(length); }
+  Real openness() const { return pressures_.openness(); }
+
+  /// Adds contact forces and their tangent at the nodal displacements u and `time`. With `excess`, at the pressures of
+  /// the iteration, and it takes the forces that closing their defects adds.
+  template <class MeshType, class Couplings>
+  Trouble assemble(const MeshType& mesh, const Field& u, Real time, Real dt, const Field* driven, Field& forces,
+                   Field* excess, Matrix& matrix, [[maybe_unused]] Couplings& couplings) {
+    const rigid::Pose<dim> pose = motion_.at(time);
+    if (const Trouble t = stretched(pose)) return t;
+    summary_ = {};
+    if constexpr (lags) dt_ = dt;
+    trial_force_.setZero();
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const Index n = nodes_[k];
+      SurfacePoint<Real, dim> at = seen_from_tool(mesh, u, pose, n);
+      if (!std::isfinite(at.gap)) return {Cause::not_finite, {Place::Kind::contact_node, n}};
+      Memory old{};
+      if constexpr (remembers) old = start_of_pass(k);
+      Vec<Real, place_components<dim>> slipped = Vec<Real, place_components<dim>>::Zero();
+      if constexpr (with_friction) slipped = moved<Real, dim>(tool_, at.place, old.friction.place);
+      const Real settled = settled_pressure(enforcement_, weight_[k], at, old);
+      const Real pressure = excess ? pressures_[k].value : settled;
+      if constexpr (with_friction && dim == 3)
+        if (settled > 0 || pressure > 0) add_curvature_of_place(tool_, on_tool(mesh, u, pose, n), at);
+      const auto node = contact_node<Real, dim>(enforcement_, friction_, Friction{}, weight_[k], at, slipped, old,
+                                                pressure, dt, area(k), excess && turned(k));
+      if (node.cause != Cause::none) return {node.cause, {Place::Kind::contact_node, n}};
+      if constexpr (remembers) trial_[k] = node.memory;
+
+      ContactNodeState<dim>& state = trial_states_[k];
+      state.gap = at.gap;
+      state.touching = node.touching;
+      state.sliding = node.sliding;
+      state.force.setZero();
+      state.pressure = node.touching ? node.pressure.value : 0;
+      summary_.stored += 0.5 * std::abs(state.pressure * state.gap - states_[k].pressure * states_[k].gap);
+      pressures_[k] = node.pressure;
+      if constexpr (with_friction) {
+        if (excess) {
+          Turning& t = turning_[k];
+          t.held = turned(k) && node.sliding;
+          t.now = node.slides;
+          t.turned = t.turned || t.now.dot(t.before) < 0;
+        }
+        state.slip = node.memory.friction.slip;
+        summary_.max_slip = std::max(summary_.max_slip, state.slip);
+      }
+      if (!node.touching) continue;
+      state.force = pose.rotation * node.force;
+      const Mat<Real, dim> whole = pose.rotation * (node.stiffness + node.coupling) * pose.rotation.transpose();
+      if (!state.force.allFinite() || !whole.allFinite()) return {Cause::not_finite, {Place::Kind::contact_node, n}};
+      forces.template segment<dim>(n * dim) += state.force;
+      if (excess) {
+        pressures_[k].slope = pose.rotation * node.pressure.slope;
+        pressures_[k].excess = pose.rotation * node.pressure.excess;
+        excess->template segment<dim>(n * dim) += pressures_[k].excess;
+        if constexpr (with_friction) excess->template segment<dim>(n * dim) += pose.rotation * node.beyond;
+      }
+      if (driven) forces.template segment<dim>(n * dim) += whole * driven->template segment<dim>(n * dim);
+      if constexpr (keeps_couplings<Model>) {
+        const Mat<Real, dim> symmetric = pose.rotation * node.stiffness * pose.rotation.transpose();
+        matrix.add(slots_[k], symmetric);
+        if (node.sliding) couplings.add(equations_[k], whole - symmetric);
+      } else {
+        matrix.add(slots_[k], whole);
+      }
+
+      trial_force_ += state.force;
+      ++summary_.touching;
+      summary_.sliding += node.sliding ? 1 : 0;
+      summary_.max_penetration = std::max(summary_.max_penetration, -at.gap);
+      summary_.bound += node.bound;
+      summary_.lag += std::abs(node.lag);
+      if (states_[k].touching) summary_.swing += node.lag;
+      summary_.dissipated += node.dissipated;
+      summary_.missed += node.missed;
+    }
+    return {};
+  }
+
+  /// Whether a node has gone through the tool on its way from the converged displacements `from` at the time `begin` to
+  /// those of the last assembly, `to` at the time `end` (theory.md, eq. 4.19-4.21).
+  template <class MeshType>
+  Trouble passed_through(const MeshType& mesh, const Field& from, const Field& to, Real begin, Real end) {
+    rigid::poses_along(motion_, begin, end, poses_);
+    const std::size_t parts = poses_.size() - 1;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const Index n = nodes_[k];
+      const Vec<Real, dim> u = from.template segment<dim>(n * dim), du = to.template segment<dim>(n * dim) - u;
+      const Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(n)] + u;
+      const auto way = [&](std::size_t i) -> Vec<Real, dim> {
+        return poses_[i].rotation.transpose() * (x + Real(i) / Real(parts) * du - poses_[i].translation);
+      };
+      Real length = 0;
+      Vec<Real, dim> here = way(0);
+      for (std::size_t i = 1; i <= parts; ++i) {
+        const Vec<Real, dim> next = way(i);
+        length += (next - here).norm();
+        here = next;
+      }
+      const Real first = states_[k].gap, last = trial_states_[k].gap, finest = 0.1 * spacing_[k];
+      const rigid::Passage<dim, Tool> passage{tool_, finest + std::max({0.0, -first, -last}), finest};
+      if (length <= first + last + 2 * passage.depth) continue;
+
+      Real gap = first, least = first;
+      here = way(0);
+      for (std::size_t i = 1; i <= parts && least >= -passage.depth; ++i) {
+        const Vec<Real, dim> next = way(i);
+        const Real there = i == parts ? last : distance_to<Real, dim>(tool_, next).gap;
+        least = there >= -passage.depth ? passage.least_gap(here, gap, next, there) : there;
+        here = next;
+        gap = there;
+      }
+      if (least >= -passage.depth) continue;
+      if (!std::isfinite(least)) return {Cause::not_finite, {Place::Kind::contact_node, n}};
+      // A node that touches may have gone around a convex tool: its way is the chord. Around, not through.
+      if (trial_states_[k].touching &&
+          passage.entered(way, parts).dot(distance_to<Real, dim>(tool_, way(parts)).normal) > -1e-3)
+        continue;
+      return {Cause::tunnelled, {Place::Kind::contact_node, n}};
+    }
+    return {};
+  }
+
+  /// Goes back to the multipliers and the bounds of the converged state, where the passes of a step begin. `start` and
+  /// `commit` do so; a step that is given up needs it.
+  void begin_passes() requires(passes || lags) {
+    renewed_ = committed_;
+    if constexpr (iterates) relaxation_ = {};
+    if constexpr (is_augmented<Enforcement>) {
+      for (Real& w : weight_) w /= stiffened_;
+      stiffened_ = 1;
+    }
+  }
+  /// Starts the next pass from where the last one ended: its tractions for multipliers, its pressures in the bounds.
+  /// Only the places and the slid distances stay those of the converged state.
+  void renew() requires passes {
+    if constexpr (iterates) {
+      relaxation_.next(changes());
+      see(relaxation_.share);
+    }
+    if constexpr (is_augmented<Enforcement>)
+      for (std::size_t k = 0; k < nodes_.size(); ++k) {
+        renewed_[k].enforcement = trial_[k].enforcement;
+        if constexpr (with_friction) renewed_[k].friction.traction = trial_[k].friction.traction;
+      }
+  }
+  /// Goes a smaller part of the way of the last `renew`, where that has led to a step without a solution; false when
+  /// there is nothing left of it.
+  bool hold_back() requires iterates {
+    if (!relaxation_.hold_back()) return false;
+    see(relaxation_.share);
+    return true;
+  }
+
+  /// Norm of the differences of the pressures and those that the bounds saw [force].
+  Real bound_change() requires lags { return changes().norm(); }
+  /// How much of the last change of its bound a pressure may answer with, for the lag to settle [-].
+  static constexpr Real stable_below() requires lags { return Friction::Pressure::stable_below; }
+  /// Makes the bounds see a share of the last `bound_change`.
+  void probe(Real share) requires lags { see(share); }
+  /// Square of the norm of what the pressures have changed by since the last `bound_change` [force^2].
+  Real answer_squared() const requires lags {
+    Real square = 0;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const auto i = static_cast<Index>(k);
+      square += std::pow(found(k) - felt_[i] - changes_[i], 2);
+    }
+    return square;
+  }
+
+  /// How far the last pass was from what another one would give: the largest gap of a pressed node, and the largest
+  /// reversible slide of a sticking one, over the distance of neighbouring nodes; and the lag of the bounds.
+  Real unsettled() const requires passes {
+    Real largest = 0;
+    if constexpr (is_augmented<Enforcement>)
+      for (std::size_t k = 0; k < nodes_.size(); ++k) {
+        const ContactNodeState<dim>& state = trial_states_[k];
+        if (!state.touching) continue;
+        largest = std::max(largest, std::abs(state.gap) / spacing_[k]);
+        if constexpr (with_friction)
+          if (!state.sliding)
+            largest = std::max(largest, (trial_[k].friction.traction - renewed_[k].friction.traction).norm() /
+                                            (enforcement_.stick_stiffness(weight_[k]) * spacing_[k]));
+      }
+    if constexpr (iterates)
+      if (summary_.bound > 0) largest = std::max(largest, summary_.lag / summary_.bound);
+    return largest;
+  }
+  /// Stiffens the enforcement, where the passes do not settle quickly enough.
+  void stiffen(Real factor) requires(is_augmented<Enforcement>) {
+    for (Real& w : weight_) w *= factor;
+    stiffened_ *= factor;
+  }
+
+  /// Energy that penetration and sticking store at the converged state, where the enforcement tells it.
+  Real stored_energy() const requires requires(const Enforcement& e) { e.energy(Real(), Real()); }
+  {
+    Real sum = 0;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (!states_[k].touching) continue;
+      sum += enforcement_.energy(states_[k].gap, weight_[k]);
+      if constexpr (with_friction)
+        sum += 0.5 * committed_[k].friction.traction.squaredNorm() / enforcement_.stick_stiffness(weight_[k]);
+    }
+    return sum;
+  }
+
+  /// Makes the memory and the forces of the last assembly the converged ones.
+  void commit() {
+    if constexpr (remembers) std::swap(committed_, trial_);
+    std::swap(states_, trial_states_);
+    pressures_.commit();
+    force_ = trial_force_;
+    if constexpr (is_augmented<Enforcement>) stiffened_ = 1;  // what a converged step took stays
+    if constexpr (passes || lags) begin_passes();
+  }
+
+  /// The converged state. The weights are part of it: they were measured at the start, and passes may stiffen them.
+  void serialize(Archive& archive) {
+    const std::string at = "contact " + name_ + ", ";
+    archive.same(at + "side", this->side_);
+    archive(at + "nodes", states_);
+    archive(at + "weights", weight_);
+    pressures_.serialize(archive, at + "pressures");
+    if constexpr (remembers) archive(at + "memory", committed_);
+    archive(at + "force", force_);
+    archive(at + "summary", summary_);
+    if constexpr (passes || lags)
+      if (archive.gives()) begin_passes();
+  }
+
+ private:
+  using ContactRecord<dim>::name_, ContactRecord<dim>::motion_, ContactRecord<dim>::nodes_, ContactRecord<dim>::states_,
+      ContactRecord<dim>::trial_states_, ContactRecord<dim>::summary_, ContactRecord<dim>::force_,
+      ContactRecord<dim>::trial_force_;
+
+  template <class MeshType>
+  static Vec<Real, dim> on_tool(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose, Index node) {
+    const Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(node)] + u.template segment<dim>(node * dim);
+    return pose.rotation.transpose() * (x - pose.translation);
+  }
+  // A pose that is finite but does not move the tool as a rigid body would; what is not finite tells its node.
+  Trouble stretched(const rigid::Pose<dim>& pose) const {
+    if (pose.rigid() || !pose.finite()) return {};
+    return {Cause::not_rigid, {Place::Kind::contact_node, nodes_[0]}};
+  }
+  // Distance, and the place where friction asks for it.
+  template <class MeshType>
+  SurfacePoint<Real, dim> seen_from_tool(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose,
+                                         Index node) const {
+    const Vec<Real, dim> x = on_tool(mesh, u, pose, node);
+    SurfacePoint<Real, dim> at = distance_to<Real, dim>(tool_, x);
+    if constexpr (with_friction && dim == 3) add_place(x, at);
+    return at;
+  }
+
+  // The pressures that the last pass found, less those that its bounds saw.
+  const Field& changes() requires lags {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const auto i = static_cast<Index>(k);
+      felt_[i] = Friction::Pressure::pressure(found(k), renewed_[k].friction.pressure, dt_);
+      changes_[i] = found(k) - felt_[i];
+    }
+    return changes_;
+  }
+  // The pressure of the last assembly.
+  Real found(std::size_t k) const { return trial_states_[k].touching ? pressures_[k].value : 0; }
+  // Makes the bounds see the pressures a part of the way from those that they saw to those that were found.
+  void see(Real share) requires lags {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const auto i = static_cast<Index>(k);
+      renewed_[k].friction.pressure = Friction::Pressure::seeing(std::max(0.0, felt_[i] + share * changes_[i]));
+    }
+  }
+
+  const Memory& start_of_pass(std::size_t k) const requires remembers {
+    if constexpr (passes || lags)
+      return renewed_[k];
+    else
+      return committed_[k];
+  }
+
+  // Whether the search along a solution has been at a place where the node slides the other way (theory.md, eq. 6.11).
+  bool turned([[maybe_unused]] std::size_t k) const {
+    if constexpr (with_friction)
+      return turning_[k].turned && turning_[k].again;
+    else
+      return false;
+  }
+
+  // Reference area that a node carries, where the friction law asks for it.
+  Real area([[maybe_unused]] std::size_t k) const {
+    if constexpr (takes_area)
+      return areas_[k];
+    else
+      return 0;
+  }
+
+  // The measure behind one unit of nodal stiffness, and the areas.
+  template <class MeshType>
+  void weigh(const MeshType& mesh, const typename Model::Kinematics& kinematics) {
+    const PenaltyPer per = enforcement_.per;
+    if (per == PenaltyPer::node) std::fill(weight_.begin(), weight_.end(), 1.0);
+    if (per == PenaltyPer::unit_depth)
+      std::fill(weight_.begin(), weight_.end(),
+                Model::Kinematics::hoop ? 2 * pi : kinematics.measure(mesh.nodes[static_cast<std::size_t>(nodes_[0])]));
+    if (per == PenaltyPer::area) weight_ = nodal_areas(mesh, kinematics, this->side_);
+    if constexpr (takes_area) areas_ = nodal_areas(mesh, kinematics, this->side_);
+  }
+
+  // Where a node slides to in an iteration.
+  struct Turning {
+    Vec<Real, place_components<dim>> before = Vec<Real, place_components<dim>>::Zero();  // where the search set out
+    Vec<Real, place_components<dim>> now = Vec<Real, place_components<dim>>::Zero();
+    bool turned = false, again = false, held = false;  // in this search, in an earlier one
+  };
+
+  Tool tool_;
+  [[no_unique_address]] Only<with_friction, typename Friction::Law, Contact<Model, Friction>> friction_;
+  Enforcement enforcement_;
+  std::vector<Real> weight_;
+  [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
+  StiffRelations<dim> pressures_;
+  [[no_unique_address]] Only<with_friction, std::vector<Turning>, struct TurningTag> turning_;
+  [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
+  [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;
+  [[no_unique_address]] Only<passes || lags, std::vector<Memory>, Friction> renewed_;  // where the present pass starts
+  std::vector<Real> spacing_;
+  std::vector<rigid::Pose<dim>> poses_;  // along a step
+  [[no_unique_address]] Only<iterates, Relaxation, Memory> relaxation_;
+  [[no_unique_address]] Only<is_augmented<Enforcement>, Real, struct StiffenedTag>
+      stiffened_;                                         // by how much in this step
+  [[no_unique_address]] Only<lags, Field, Matrix> felt_;  // pressures that the bounds of the last pass saw
+  [[no_unique_address]] Only<lags, Field, struct ChangesTag> changes_;  // and what it found, less these
+  [[no_unique_address]] Only<lags, Real, struct StepTag> dt_{};         // of the last assembly
+  std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dim))>> slots_;
+  using NodeEquations = std::vector<std::array<Index, static_cast<std::size_t>(dim)>>;
+  [[no_unique_address]] Only<keeps_couplings<Model>, NodeEquations, Tool> equations_;
+};
+
+/// The pairs that the contacts of a bundle become.
+template <class Model>
+using ContactPairs = typename detail::ContactLists<Model, typename Model::Friction, ContactPair>::type;
+
+}  // namespace stickslip
