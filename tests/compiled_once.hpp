@@ -8,7 +8,9 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 
-extern template class Eigen::FullPivLU<Eigen::MatrixXd>;
+extern template class Eigen::FullPivLU<stickslip::Mat<stickslip::Real, 1>>;
+extern template class Eigen::FullPivLU<stickslip::Mat<stickslip::Real, 3>>;
+extern template class Eigen::FullPivLU<stickslip::Mat<stickslip::Real, 6>>;
 extern template class Eigen::SimplicialLDLT<stickslip::EigenMatrix, Eigen::Lower>;
 extern template class Eigen::SimplicialCholeskyBase<Eigen::SimplicialLDLT<stickslip::EigenMatrix, Eigen::Lower>>;
 extern template class Eigen::SparseLU<stickslip::EigenMatrix, Eigen::COLAMDOrdering<stickslip::Index>>;

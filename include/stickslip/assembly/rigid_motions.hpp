@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -21,27 +22,9 @@ class RigidMotions {
   static constexpr int dim = Kinematics::dim;
   static constexpr int count = Kinematics::hoop ? 1 : dim + dim * (dim - 1) / 2;
 
-  RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Field& u) {
-    Vec<Real, dim> centre = Vec<Real, dim>::Zero();
-    for (const auto& X : nodes) centre += X / Real(nodes.size());
-    for (const auto& X : nodes) extent_ = std::max(extent_, (X - centre).norm());
-    motions_.assign(count, Field::Zero(u.size()));
-    for (Index c = 0; c < u.size(); ++c) {
-      const Index n = c / dim;
-      const int i = c % dim;
-      if constexpr (Kinematics::hoop) {
-        motions_[0][c] = i == dim - 1 ? 1 : 0;
-      } else {
-        const auto at = [&](int k) {
-          return (nodes[static_cast<std::size_t>(n)][k] + u[n * dim + k] - centre[k]) / extent_;
-        };
-        motion(i)[c] = 1;
-        for (int k = dim; k < count; ++k) {
-          const int p = dim == 2 ? 0 : (k - 2) % 3, q = dim == 2 ? 1 : (k - 1) % 3;  // the plane it turns
-          motion(k)[c] = i == p ? -at(q) : i == q ? at(p) : 0;
-        }
-      }
-    }
+  RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Field& u) : nodes_(nodes), u_(u) {
+    for (const auto& X : nodes) centre_ += X / Real(nodes.size());
+    for (const auto& X : nodes) extent_ = std::max(extent_, (X - centre_).norm());
   }
 
   /// Largest distance of a node from the centre [length].
@@ -50,30 +33,35 @@ class RigidMotions {
   /// Those of their combinations, an orthonormal nodal field each, that neither supports nor the matrix K resist: the
   /// kernel of r.K r / `stiffness` + c.c, r their unknown and c their constrained components, to `least`.
   std::vector<Field> unresisted(const Dofs& dofs, const SparseView& matrix, Real stiffness, Real least) const {
-    // Of sizes known at run time alone, and entry by entry: quick to compile, and done once in a scene.
-    Eigen::MatrixXd resistance = Eigen::MatrixXd::Zero(count, count);
-    const auto resist = [&](Index a, Real value, Index b) {
-      for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; ++j) resistance(i, j) += motion(i)[a] * value * motion(j)[b];
+    Mat<Real, count> resistance = Mat<Real, count>::Zero();
+    const auto resist = [&](const Components& a, Real value, const Components& b) {
+      for (std::size_t i = 0; i < a.size(); ++i)
+        for (std::size_t j = 0; j < b.size(); ++j)
+          resistance(static_cast<Index>(i), static_cast<Index>(j)) += a[i] * value * b[j];
     };
     for (Index c = 0; c < dofs.components(); ++c)
-      if (dofs.equation(c) == Dofs::constrained) resist(c, 1, c);
+      if (dofs.equation(c) == Dofs::constrained) resist(at(c), 1, at(c));
     for (Index j = 0; j < matrix.size; ++j) {
       const Index b = dofs.component(j);
+      const Components there = at(b);
       for (Index s = matrix.column_start[j]; s < matrix.column_start[j + 1]; ++s) {
         const Index a = dofs.component(matrix.row[s]);
-        resist(a, matrix.values[s] / stiffness, b);
-        if (matrix.symmetry == Symmetry::symmetric && a != b) resist(b, matrix.values[s] / stiffness, a);
+        const Components here = at(a);
+        resist(here, matrix.values[s] / stiffness, there);
+        if (matrix.symmetry == Symmetry::symmetric && a != b) resist(there, matrix.values[s] / stiffness, here);
       }
     }
-    Eigen::FullPivLU<Eigen::MatrixXd> lu(resistance);
+    Eigen::FullPivLU<Mat<Real, count>> lu(resistance);
     if (lu.maxPivot() > 0) lu.setThreshold(least / lu.maxPivot());
     std::vector<Field> free;
     if (lu.dimensionOfKernel() == 0) return free;
     const Eigen::MatrixXd kernel = lu.kernel();
     for (Index j = 0; j < kernel.cols(); ++j) {
       Field r = Field::Zero(dofs.components());
-      for (int k = 0; k < count; ++k) r += kernel(k, j) * motion(k);
+      for (Index c = 0; c < r.size(); ++c) {
+        const Components motions = at(c);
+        for (std::size_t k = 0; k < motions.size(); ++k) r[c] += kernel(static_cast<Index>(k), j) * motions[k];
+      }
       for (const Field& other : free) r -= other.dot(r) * other;
       free.push_back(r.normalized());
     }
@@ -81,10 +69,30 @@ class RigidMotions {
   }
 
  private:
-  Field& motion(int k) { return motions_[static_cast<std::size_t>(k)]; }
-  const Field& motion(int k) const { return motions_[static_cast<std::size_t>(k)]; }
+  // What each motion makes of a nodal component. Entry by entry, for it is the quickest to compile.
+  using Components = std::array<Real, static_cast<std::size_t>(count)>;
+  Components at(Index c) const {
+    const Index n = c / dim;
+    const int i = c % dim;
+    Components motions{};
+    if constexpr (Kinematics::hoop) {
+      motions[0] = i == dim - 1 ? 1 : 0;
+    } else {
+      const auto x = [&](int k) {
+        return (nodes_[static_cast<std::size_t>(n)][k] + u_[n * dim + k] - centre_[k]) / extent_;
+      };
+      motions[static_cast<std::size_t>(i)] = 1;
+      for (int k = dim; k < count; ++k) {
+        const int p = dim == 2 ? 0 : (k - 2) % 3, q = dim == 2 ? 1 : (k - 1) % 3;  // the plane it turns
+        motions[static_cast<std::size_t>(k)] = i == p ? -x(q) : i == q ? x(p) : 0;
+      }
+    }
+    return motions;
+  }
 
-  std::vector<Field> motions_;
+  const std::vector<Vec<Real, dim>>& nodes_;
+  const Field& u_;
+  Vec<Real, dim> centre_ = Vec<Real, dim>::Zero();
   Real extent_ = 0;
 };
 
