@@ -243,7 +243,8 @@ def fine_table(programs):
 
 def wedge_table(text, steps="160"):
     rows = [r for r in csv.DictReader(text.splitlines()) if r["steps"] == steps]
-    cell = lambda r: f"{float(r['error']):.0e}, {r['iterations']}" if r["outcome"] == "completed" else "refused: " + re.split("[;,]", r["outcome"])[0]
+    refusal = lambda outcome: "lag feeds back" if "lag feeds back" in outcome else re.split("[;,]", outcome)[0]
+    cell = lambda r: f"{float(r['error']):.0e}, {r['iterations']}" if r["outcome"] == "completed" else "refused: " + refusal(r["outcome"])
     return table(["law, solver"] + [f"mu {mu}, kappa {kappa}" for mu, kappa in dict.fromkeys((r["mu"], r["kappa"]) for r in rows)],
                  [[law] + [cell(r) for r in rows if r["law"] == law] for law in dict.fromkeys(r["law"] for r in rows)])
 
