@@ -13,6 +13,16 @@
 #include <iostream>
 #include <new>
 
+// The shadow memory of AddressSanitizer takes more addresses than any limit leaves. GCC tells of it by a macro, Clang
+// by a feature.
+#ifdef __SANITIZE_ADDRESS__
+#define ADDRESSES_CANNOT_BE_LIMITED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ADDRESSES_CANNOT_BE_LIMITED
+#endif
+#endif
+
 namespace examples {
 
 namespace {
@@ -49,6 +59,9 @@ std::string read_all(int from) {
 
 int print_solver_table(const Options& options, const std::vector<std::string>& solvers, double gigabytes,
                        double seconds, const std::function<int(const Options&)>& run) {
+#ifdef ADDRESSES_CANNOT_BE_LIMITED
+  throw BadOption("--solver-table on limits the memory of its solvers, which AddressSanitizer does not let it");
+#endif
   bool any = false, first = true;
   for (const std::string& solver : solvers) {
     int results[2], words[2];
