@@ -97,7 +97,7 @@ void write_tool_data(const std::filesystem::path& path, const stickslip::Scene<M
     const auto pose = pair.motion().at(problem.time());
     if constexpr (Model::Kinematics::dim == 2)
       for (const auto& p : pair.tool().sample(reach / 200, reach)) {
-        const stickslip::Vec<double, 2> x = pose.rotation * p + pose.translation;
+        const stickslip::Vec<double, 2> x = pose.in_space(p);
         out << x[0] << ' ' << x[1] << " 0\n";
       }
     else

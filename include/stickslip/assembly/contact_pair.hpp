@@ -260,7 +260,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       const Vec<Real, dim> u = from.template segment<dim>(n * dim), du = to.template segment<dim>(n * dim) - u;
       const Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(n)] + u;
       const auto way = [&](std::size_t i) -> Vec<Real, dim> {
-        return poses_[i].rotation.transpose() * (x + Real(i) / Real(parts) * du - poses_[i].translation);
+        return poses_[i].on_tool(x + Real(i) / Real(parts) * du);
       };
       Real length = 0;
       Vec<Real, dim> here = way(0);
@@ -408,8 +408,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
 
   template <class MeshType>
   static Vec<Real, dim> on_tool(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose, Index node) {
-    const Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(node)] + u.template segment<dim>(node * dim);
-    return pose.rotation.transpose() * (x - pose.translation);
+    return pose.on_tool(mesh.nodes[static_cast<std::size_t>(node)] + u.template segment<dim>(node * dim));
   }
   // A pose that is finite but does not move the tool as a rigid body would; what is not finite tells its node.
   Trouble stretched(const rigid::Pose<dim>& pose) const {

@@ -29,7 +29,7 @@ Real facet_share(const Mesh<2, nodes_per_cell>& mesh, const Kinematics& kinemati
 template <class Kinematics, int nodes_per_cell>
 Real facet_share(const Mesh<3, nodes_per_cell>& mesh, const Kinematics& kinematics, const std::array<Index, 4>& facet,
                  Index node) {
-  using V = Vec<Real, 3>;
+  using V = Vec<Real, Kinematics::dim>;
   const auto found = std::find(facet.begin(), facet.end(), node);
   if (found == facet.end()) return 0;
   const auto first = static_cast<std::size_t>(found - facet.begin());

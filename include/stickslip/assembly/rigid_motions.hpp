@@ -2,10 +2,9 @@
 #pragma once
 
 #include <stickslip/assembly/dofs.hpp>
+#include <stickslip/base/null_space.hpp>
 #include <stickslip/base/types.hpp>
 #include <stickslip/policy/linear_solver.hpp>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -51,16 +50,12 @@ class RigidMotions {
         if (matrix.symmetry == Symmetry::symmetric && a != b) resist(there, matrix.values[s] / stiffness, here);
       }
     }
-    Eigen::FullPivLU<Mat<Real, count>> lu(resistance);
-    if (lu.maxPivot() > 0) lu.setThreshold(least / lu.maxPivot());
     std::vector<Field> free;
-    if (lu.dimensionOfKernel() == 0) return free;
-    const Eigen::MatrixXd kernel = lu.kernel();
-    for (Index j = 0; j < kernel.cols(); ++j) {
+    for (const Components& combination : null_space<count>(resistance, least)) {
       Field r = Field::Zero(dofs.components());
       for (Index c = 0; c < r.size(); ++c) {
         const Components motions = at(c);
-        for (std::size_t k = 0; k < motions.size(); ++k) r[c] += kernel(static_cast<Index>(k), j) * motions[k];
+        for (std::size_t k = 0; k < motions.size(); ++k) r[c] += combination[k] * motions[k];
       }
       for (const Field& other : free) r -= other.dot(r) * other;
       free.push_back(r.normalized());

@@ -31,7 +31,10 @@ struct AnisotropicCoulomb {
   Mat<Real, 3> metric() const {
     const Vec<Real, 3> a = direction.normalized();
     const Real ratio = mu_across / mu_along;
-    return Mat<Real, 3>::Identity() + (ratio * ratio - 1) * a * a.transpose();
+    Mat<Real, 3> M;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) M(i, j) = (i == j ? 1 : 0) + (ratio * ratio - 1) * a[i] * a[j];
+    return M;
   }
   void validate() const {
     if (!(mu_along > 0 && mu_across > 0))

@@ -17,6 +17,11 @@ struct Pose {
   Mat<Real, dim> rotation = Mat<Real, dim>::Identity();
   Vec<Real, dim> translation = Vec<Real, dim>::Zero();
 
+  /// A point of space in the tool's frame.
+  Vec<Real, dim> on_tool(const Vec<Real, dim>& x) const { return rotation.transpose() * (x - translation); }
+  /// A point of the tool's frame in space.
+  Vec<Real, dim> in_space(const Vec<Real, dim>& x) const { return rotation * x + translation; }
+
   bool finite() const { return rotation.allFinite() && translation.allFinite(); }
   /// Whether it keeps distances, to a millionth, and does not mirror.
   bool rigid() const {
@@ -27,8 +32,13 @@ struct Pose {
     else
       for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i, ++i)
         volume += Q(0, i) * (Q(1, j) * Q(2, k) - Q(1, k) * Q(2, j));
-    const Mat<Real, dim> product = Q.transpose() * Q;
-    return volume > 0 && (product - Mat<Real, dim>::Identity()).cwiseAbs().maxCoeff() <= 1e-6;
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j <= i; ++j) {
+        Real product = i == j ? -1 : 0;
+        for (int k = 0; k < dim; ++k) product += Q(k, i) * Q(k, j);
+        if (!(std::abs(product) <= 1e-6)) return false;
+      }
+    return volume > 0;
   }
 };
 

@@ -12,8 +12,10 @@
 namespace stickslip {
 
 /// Eigen's simplicial L D L^T with approximate minimum degree. It does not pivot: of an indefinite matrix the solution
-/// is checked and refined, and refused if it stays wrong; a zero pivot fails.
-class EigenLdlt {
+/// is checked and refined, and refused if it stays wrong; a zero pivot fails. Use it as `EigenLdlt`; a template, so that
+/// only a program that uses it compiles it.
+template <class Matrix>
+class EigenLdltOf {
  public:
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::symmetric;
@@ -48,10 +50,11 @@ class EigenLdlt {
     return solver_.info() == Eigen::Success;
   }
 
-  Eigen::SimplicialLDLT<EigenMatrix, Eigen::Lower> solver_;
+  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> solver_;
   SparseView matrix_{};
   bool indefinite_ = false;
   Refinement refinement_;
 };
+using EigenLdlt = EigenLdltOf<EigenMatrix>;
 
 }  // namespace stickslip

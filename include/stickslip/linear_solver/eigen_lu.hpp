@@ -10,8 +10,10 @@
 
 namespace stickslip {
 
-/// Eigen's supernodal LU with partial pivoting and column approximate minimum degree. Takes every system.
-class EigenLu {
+/// Eigen's supernodal LU with partial pivoting and column approximate minimum degree. Takes every system. Use it as
+/// `EigenLu`; a template, so that only a program that uses it compiles it.
+template <class Matrix>
+class EigenLuOf {
  public:
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::general;
@@ -33,7 +35,8 @@ class EigenLu {
   }
 
  private:
-  Eigen::SparseLU<EigenMatrix, Eigen::COLAMDOrdering<Index>> solver_;
+  Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<Index>> solver_;
 };
+using EigenLu = EigenLuOf<EigenMatrix>;
 
 }  // namespace stickslip

@@ -134,9 +134,8 @@ class EnergyLedger {
         for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
           const Index n = pair.nodes()[k];
           const Vec<Real, dim> x = problem_.body().mesh().nodes[static_cast<std::size_t>(n)] + problem_.displacement(n);
-          const Vec<Real, dim> on_tool = to.rotation.transpose() * (x - to.translation);
-          const Vec<Real, dim> moved =
-              to.rotation * on_tool + to.translation - from.rotation * on_tool - from.translation;
+          const Vec<Real, dim> on_tool = to.on_tool(x);
+          const Vec<Real, dim> moved = to.in_space(on_tool) - from.in_space(on_tool);
           Vec<Real, dim> force = (1 - before) * pair.states()[k].force;
           if (!forces_.empty()) force += before * forces_[p++].force;
           work -= force.dot(moved);
