@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "compiled_once.hpp"
 
-template class Eigen::FullPivLU<stickslip::Mat<stickslip::Real, 1>>;
-template class Eigen::FullPivLU<stickslip::Mat<stickslip::Real, 3>>;
-template class Eigen::FullPivLU<stickslip::Mat<stickslip::Real, 6>>;
 template class Eigen::SimplicialLDLT<stickslip::EigenMatrix, Eigen::Lower>;
 template class Eigen::SimplicialCholeskyBase<Eigen::SimplicialLDLT<stickslip::EigenMatrix, Eigen::Lower>>;
 template class Eigen::SparseLU<stickslip::EigenMatrix, Eigen::COLAMDOrdering<stickslip::Index>>;

@@ -11,7 +11,7 @@ import sys
 import tempfile
 import time
 
-restarted_run, punch = sys.argv[1:]
+pressed_block, punch = sys.argv[1:]
 KILLS, EVERY = 20, 7
 random.seed(4)
 
@@ -33,7 +33,7 @@ def refused(program, *options):
 def killed_at_random(folder):
     """Returns how many kills met a run that was under way, and how many steps each of them cost."""
     kept, out, alone = folder / "run.restart", folder / "out.json", folder / "alone.json"
-    program = [restarted_run, "--refine", "2", "--quiet"]
+    program = [pressed_block, "--refine", "2", "--quiet"]
     begin = time.monotonic()
     subprocess.run([*program, "--json", alone], check=True, stderr=subprocess.DEVNULL, timeout=100)
     took = time.monotonic() - begin

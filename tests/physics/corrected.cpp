@@ -14,7 +14,7 @@
 
 #include <random>
 
-namespace {
+namespace corrected {
 
 using namespace scene;
 
@@ -134,4 +134,4 @@ TEST_CASE("corrected: with inertia, whose share scales the couplings") {
   CHECK(std::abs(iterations - others) <= 1);
 }
 
-}  // namespace
+}  // namespace corrected

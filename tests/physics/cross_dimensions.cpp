@@ -10,7 +10,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace cross_dimensions {
 
 using namespace scene;
 using V3 = Vec<Real, 3>;
@@ -163,4 +163,4 @@ TEST_CASE("augmented Lagrangian in space: no penetration of a ball is left") {
   check_multipliers<WithPressure<Coulomb, LagIterated>>();
 }
 
-}  // namespace
+}  // namespace cross_dimensions

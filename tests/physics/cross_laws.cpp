@@ -10,7 +10,7 @@
 #include <stickslip/friction/tresca.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 
-namespace {
+namespace cross_laws {
 
 using namespace scene;
 using V3 = Vec<Real, 3>;
@@ -112,4 +112,4 @@ TEST_CASE(
   check_orders(Stribeck{.mu_static = 0.3, .mu_dynamic = 0.2, .speed = 2});
 }
 
-}  // namespace
+}  // namespace cross_laws

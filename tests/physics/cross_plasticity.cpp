@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace cross_plasticity {
 
 using namespace scene;
 
@@ -51,4 +51,4 @@ TEST_CASE("the two plasticity models agree within 0.5 % on the punch") {
     }
 }
 
-}  // namespace
+}  // namespace cross_plasticity

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-namespace {
+namespace failure {
 
 using namespace scene;
 using M = Model<EigenLdlt, QuasiCoulomb, FiniteJ2<PowerHardening>>;
@@ -132,4 +132,4 @@ TEST_CASE("a drive and a load that are no numbers name their node") {
   CHECK(loaded.place.kind == Place::Kind::node);
 }
 
-}  // namespace
+}  // namespace failure

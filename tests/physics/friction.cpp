@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "sliding_block.hpp"
 
-namespace {
+namespace friction {
 
 using namespace scene;
 
@@ -72,4 +72,4 @@ TEST_CASE("Coulomb and Quasi-Coulomb with mu = 0 are frictionless") {
   CHECK((end_of_drag<QuasiCoulomb>(0.1) - smooth).norm() > 1e-3 * smooth.norm());
 }
 
-}  // namespace
+}  // namespace friction

@@ -7,7 +7,7 @@
 #include <stickslip/friction/stribeck.hpp>
 #include <stickslip/friction/tresca.hpp>
 
-namespace {
+namespace friction_bounds {
 
 using namespace scene;
 
@@ -74,4 +74,4 @@ TEST_CASE("slip weakening: mu of the slid distance times N") {
   });
 }
 
-}  // namespace
+}  // namespace friction_bounds

@@ -22,9 +22,9 @@
 #include <cmath>
 #include <type_traits>
 
-using namespace stickslip;
+namespace inertia {
 
-namespace {
+using namespace stickslip;
 
 struct Flying {
   using Kinematics = PlaneStrain;
@@ -66,8 +66,6 @@ Field swayed(const TimeScheme& scheme, Index steps, bool lumped = false) {
   REQUIRE(march.report().steps == steps);
   return block.displacement();
 }
-
-}  // namespace
 
 TEST_CASE("the schemes are of second order on a nonlinear vibration") {
   for (const TimeScheme& scheme : {chung_hulbert(0.0), chung_hulbert(0.5), chung_hulbert(1.0), newmark(), hht(0.1)}) {
@@ -240,3 +238,5 @@ TEST_CASE("an inertia without density is refused by name") {
   CHECK_THROWS_AS((void)hht(0.5), std::invalid_argument);
   CHECK_THROWS_AS((void)newmark(0.25, 0.4), std::invalid_argument);
 }
+
+}  // namespace inertia

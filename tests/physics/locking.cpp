@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace locking {
 
 using namespace scene;
 
@@ -46,4 +46,4 @@ TEST_CASE("the mean dilatation does not lock where the plain element does") {
   CHECK(deflection<Plain>(16, 0.3) == doctest::Approx(deflection<Mean>(16, 0.3)).epsilon(0.02));
 }
 
-}  // namespace
+}  // namespace locking

@@ -4,7 +4,7 @@
 #include <stickslip/linear_solver/eigen_lu.hpp>
 #include <stickslip/material/hypoelastic_j2.hpp>
 
-namespace {
+namespace newton_coulomb {
 using namespace newton_check;
 TEST_CASE("Newton converges quadratically: Coulomb, elastic") {
   check<Coulomb, Hencky, EigenLu>(0.2);
@@ -15,4 +15,4 @@ TEST_CASE("Newton converges quadratically: Coulomb, plastic") {
 TEST_CASE("Newton converges quadratically: Coulomb, hypoelastic-plastic") {
   check<Coulomb, HypoelasticJ2<PowerHardening>, EigenLu>(0.2);
 }
-}  // namespace
+}  // namespace newton_coulomb

@@ -3,7 +3,7 @@
 
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 
-namespace {
+namespace newton_quasi {
 using namespace newton_check;
 TEST_CASE("Newton converges quadratically: Quasi-Coulomb, elastic") {
   check<QuasiCoulomb, Hencky, EigenLdlt>(0.2);
@@ -14,4 +14,4 @@ TEST_CASE("Newton converges quadratically: Quasi-Coulomb, linear hardening") {
 TEST_CASE("Newton converges quadratically: Quasi-Coulomb, power hardening") {
   check<QuasiCoulomb, FiniteJ2<PowerHardening>, EigenLdlt>(0.2);
 }
-}  // namespace
+}  // namespace newton_quasi

@@ -11,7 +11,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace objectivity {
 
 using namespace scene;
 
@@ -148,4 +148,4 @@ TEST_CASE("contact in space: body and tool that turn together about a skew axis 
   CHECK(friction > 1);
 }
 
-}  // namespace
+}  // namespace objectivity

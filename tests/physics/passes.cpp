@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace passes {
 
 using namespace scene;
 template <class S, class F, class E>
@@ -179,4 +179,4 @@ TEST_CASE("a law for each kind of contact: the same answers as alone, and no mem
   CHECK((rough - alike).norm() > 1e-3 * alike.norm());
 }
 
-}  // namespace
+}  // namespace passes

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace patch {
 
 using namespace scene;
 
@@ -106,4 +106,4 @@ TEST_CASE("what a unit of stiffness stands for") {
   CHECK(force(Turned{}, PenaltyPer::area, 1) == doctest::Approx(2 * pi * 2).epsilon(1e-10));
 }
 
-}  // namespace
+}  // namespace patch

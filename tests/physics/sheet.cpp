@@ -7,7 +7,7 @@
 
 #include <map>
 
-namespace {
+namespace sheet {
 
 using namespace stickslip;
 
@@ -95,4 +95,4 @@ TEST_CASE("a quarter of a round sheet in space does what the axisymmetric sheet 
   CHECK(largest < 0.02 * travel);
 }
 
-}  // namespace
+}  // namespace sheet

@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace stiff_relations {
 
 using namespace scene;
 
@@ -64,4 +64,4 @@ TEST_CASE("at the end of an iteration pressures and dilatations are those of the
   CHECK(pairs[0].force()[1] < -1e3);
 }
 
-}  // namespace
+}  // namespace stiff_relations

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace thick_cylinder {
 
 using namespace scene;
 
@@ -73,4 +73,4 @@ TEST_CASE("thick cylinder, a quarter in plane strain: second order towards Lame"
   check_order(plane);
 }
 
-}  // namespace
+}  // namespace thick_cylinder

@@ -15,7 +15,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace {
+namespace three_dimensional {
 
 using namespace scene;
 using V3 = Vec<Real, 3>;
@@ -189,4 +189,4 @@ TEST_CASE("a file of hexahedra: VTK's cell type 12, vectors of three components"
   CHECK(array("cauchy_stress").size() == (8 + 2 * 6 * sizeof(Real) + 2) / 3 * 4);
 }
 
-}  // namespace
+}  // namespace three_dimensional

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace units {
 
 using namespace scene;
 
@@ -66,4 +66,4 @@ TEST_CASE("N and mm, N and m, MN and um give the same answer: no tolerance witho
   check<Axisymmetric>(1000, 1);
 }
 
-}  // namespace
+}  // namespace units

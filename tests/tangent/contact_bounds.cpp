@@ -8,7 +8,7 @@
 #include <stickslip/friction/stribeck.hpp>
 #include <stickslip/friction/tresca.hpp>
 
-namespace {
+namespace contact_bounds {
 
 using namespace contact_states;
 
@@ -216,4 +216,4 @@ TEST_CASE("lagged pressures settle at the errors, and lose their stability at th
         doctest::Approx(kappa * bend / (1 + kappa) / (1 + kappa)).epsilon(1e-6));
 }
 
-}  // namespace
+}  // namespace contact_bounds

@@ -4,7 +4,7 @@
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
 
-namespace {
+namespace contact_node {
 
 using namespace contact_states;
 
@@ -144,4 +144,4 @@ TEST_CASE("friction never gives energy and never exceeds its bound") {
   check_walk<Adhesion>({});
 }
 
-}  // namespace
+}  // namespace contact_node

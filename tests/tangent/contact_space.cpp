@@ -14,7 +14,7 @@
 
 #include <random>
 
-namespace {
+namespace contact_space {
 
 using namespace stickslip;
 using V = Vec<Real, 3>;
@@ -245,4 +245,4 @@ TEST_CASE("augmented Lagrangian: the multiplier presses through an open gap, and
   }
 }
 
-}  // namespace
+}  // namespace contact_space

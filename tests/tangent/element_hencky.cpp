@@ -3,7 +3,7 @@
 
 #include <stickslip/material/hencky.hpp>
 
-namespace {
+namespace element_hencky {
 
 using namespace element_check;
 const Hencky material{.young = 200e3, .poisson = 0.3};
@@ -87,4 +87,4 @@ TEST_CASE("elements carry a non-symmetric material's tangent") {
       verify::LoneElement<FullyIntegrated<Quad4>, Axisymmetric, Skewed>{.material = {{material}}, .X = distorted()});
 }
 
-}  // namespace
+}  // namespace element_hencky

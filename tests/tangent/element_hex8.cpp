@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace element_hex8 {
 
 using namespace stickslip;
 using U = Vec<Real, 24>;
@@ -94,4 +94,4 @@ TEST_CASE_TEMPLATE("a hexahedron that turns inside out says so", Element, Mean, 
   CHECK(std::isnan(element.template at<Real>(u, {}).residual[0]));
 }
 
-}  // namespace
+}  // namespace element_hex8

@@ -4,7 +4,7 @@
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/material/hypoelastic_j2.hpp>
 
-namespace {
+namespace element_hypoelastic_j2 {
 
 using namespace element_check;
 using Material = HypoelasticJ2<LinearHardening>;
@@ -27,4 +27,4 @@ TEST_CASE("tangent of elements that stay elastic, hypoelastic J2: not symmetric"
   CHECK(verify::element_tangent(element, paths[1]).asymmetry > 1e-3);
 }
 
-}  // namespace
+}  // namespace element_hypoelastic_j2

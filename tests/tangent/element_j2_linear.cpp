@@ -4,7 +4,7 @@
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 
-namespace {
+namespace element_j2_linear {
 
 using namespace element_check;
 using Material = FiniteJ2<LinearHardening>;
@@ -26,4 +26,4 @@ TEST_CASE("tangent of elements that stay elastic, J2 with linear hardening") {
   check_all(hard, {{displacement(1)}});
 }
 
-}  // namespace
+}  // namespace element_j2_linear

@@ -4,7 +4,7 @@
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 
-namespace {
+namespace element_j2_power {
 
 using namespace element_check;
 using Material = FiniteJ2<PowerHardening>;
@@ -28,4 +28,4 @@ TEST_CASE("tangent of elements that stay elastic, J2 with power hardening") {
   check_all(hard, {{displacement(1)}});
 }
 
-}  // namespace
+}  // namespace element_j2_power

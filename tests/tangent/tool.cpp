@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace {
+namespace tool {
 
 using namespace stickslip;
 using rigid::Profile;
@@ -166,4 +166,4 @@ TEST_CASE("a pose turns about its centre") {
   CHECK(spin.at(pi / 2).rotation(1, 0) == doctest::Approx(1));
 }
 
-}  // namespace
+}  // namespace tool

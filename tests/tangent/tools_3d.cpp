@@ -11,7 +11,7 @@
 
 #include "tools_3d.hpp"
 
-namespace {
+namespace tools_3d {
 
 using namespace tools_3d;
 static_assert(RigidTool<rigid::Revolution, 3> && RigidTool<rigid::Extruded, 3>);
@@ -224,4 +224,4 @@ TEST_CASE("tools of space complain about what is wrong") {
   CHECK(says("right angle", [&] { (void)rigid::Extruded(rigid::line({0, 0}, {1, 0}), zero, z, V3(0, 1, 1)); }));
 }
 
-}  // namespace
+}  // namespace tools_3d

@@ -104,7 +104,7 @@ using Enforcements = mp_list<NoContact, Penalty, AugmentedLagrangian>;
 enum Inertia_ { still, moving };
 using Inertias = mp_list<Quasistatic, GeneralizedAlpha>;
 
-/// Their headers are dear to read, so a source knows its own alone and specialises SolverType for them.
+/// By turns one for symmetric systems and one for all. Their headers are dear to read: solvers_*.hpp.
 enum Solver_ {
   eigen_ldlt,
   eigen_lu,
@@ -120,6 +120,19 @@ enum Solver_ {
 constexpr std::size_t solvers = 10;
 template <Solver_>
 struct SolverType;
+/// What a bundle's contracts look at of either.
+template <Symmetry accepted>
+struct DeclaredSolver {
+  using Role = role::LinearSolver;
+  static constexpr Symmetry accepts = accepted;
+  static constexpr Symmetry storage = accepted;
+  void analyze(const SparseView&) {}
+  Factorization factorize(const SparseView&) { return Factorization::failed; }
+  bool solve(const Real*, Real*) { return false; }
+};
+template <class L, Symmetry accepted>
+constexpr bool is_as_declared =
+    LinearSolverPolicy<L>&& L::accepts == accepted&& L::storage == accepted && !takes_corrections<L>;
 
 template <class K, class T, class M, class B, class S, class E, class I, class L>
 struct Bundle {

@@ -8,15 +8,6 @@
 
 namespace typed {
 
-template <Symmetry accepted>
-struct DeclaredSolver {
-  using Role = role::LinearSolver;
-  static constexpr Symmetry accepts = accepted;
-  static constexpr Symmetry storage = accepted;
-  void analyze(const SparseView&) {}
-  Factorization factorize(const SparseView&) { return Factorization::failed; }
-  bool solve(const Real*, Real*) { return false; }
-};
 using Solvers = mp_list<DeclaredSolver<Symmetry::symmetric>, DeclaredSolver<Symmetry::general>>;
 
 template <std::size_t... last, class Visit>

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// A benchmark program that says on standard error after which times it has converged: for the test of what a killed run
-// leaves behind. Its march has books, an output, inertia and a tool that some steps are cut for.
+// A benchmark program that says on standard error after which times it has converged, and whose tool can be lost: for
+// the tests of what a killed run and a failed one leave behind. Its march has books, an output, inertia and a tool that
+// some steps are cut for.
 #include "common/benchmark.hpp"
 
 #include <stickslip/inertia/generalized_alpha.hpp>
 #include <stickslip/stickslip.hpp>
 
 #include <cstdio>
+#include <limits>
 
 using namespace stickslip;
 
@@ -18,14 +20,21 @@ struct Press : QuasistaticDefaults {
 };
 
 int main(int argc, char** argv) {
-  const examples::Program program{.name = "restarted_run",
-                                  .title = "a block that is pressed and dragged",
-                                  .frictions = {"extrapolated-quasi-coulomb"},
-                                  .solvers = {"eigen-ldlt"},
-                                  .mu = 0.2};
+  const examples::Program program{
+      .name = "pressed_block",
+      .title = "a block that is pressed and dragged",
+      .frictions = {"extrapolated-quasi-coulomb"},
+      .solvers = {"eigen-ldlt"},
+      .mu = 0.2,
+      .parameters = {
+          {.name = "lost-after", .about = "the time from which on the tool is nowhere", .value = 1, .high = 1}}};
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;
+    const auto motion = [last = options->parameters.at("lost-after")](Real t) {
+      if (t > last) return Vec<Real, 2>(0, std::numeric_limits<Real>::quiet_NaN());
+      return Vec<Real, 2>(std::max(0.0, t - 0.3), -0.3 * std::min(t, 0.3));
+    };
     Problem<Press> block{
         {.body =
              mesh::rectangle({.origin = {1, 0}, .size = {3, 1}, .cells = {18 * options->refine, 6 * options->refine}}),
@@ -33,13 +42,13 @@ int main(int argc, char** argv) {
          .inertia = {.density = 0.1},
          .contacts = {{.side = "top",
                        .tool = rigid::disc({2, 4.02}, 3),
-                       .motion = [](Real t) { return Vec<Real, 2>(std::max(0.0, t - 0.3), -0.3 * std::min(t, 0.3)); },
+                       .motion = motion,
                        .friction = {.mu = options->mu},
                        .enforcement = {.normal = 20, .tangential = 2, .per = PenaltyPer::stiffness}}}}};
     block.hold("bottom", 0).hold("bottom", 1);
     return examples::run<Press, examples::Books::kept>(
         *options, block,
-        {.labels = {.name = "restarted_run",
+        {.labels = {.name = "pressed_block",
                     .kinematics = "plane strain",
                     .material = "finite J2, linear hardening",
                     .travel = "travel",

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scene.hpp"
+#include "solvers_general.hpp"
+
+#include <doctest/doctest.h>
+
+namespace typed {
+
+TEST_CASE("models of the covering set in plane strain, solvers of every system") {
+  CHECK(run_rows([](const Row& row) { return row.kinematics == plane && row.solver % 2 == 1; }) == 10);
+}
+
+}  // namespace typed
