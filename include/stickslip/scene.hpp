@@ -132,6 +132,55 @@ class Scene {
   template <class>
   friend class March;
 
+  // Makes the discrete system, unless supports and loads are the same as before, and at time 0 the state to start from.
+  void prepare() {
+    if (system_) return;
+    if constexpr (has_inertia<Model>)
+      system_ = std::make_unique<System<Model>>(body_, pairs_, *inertia_, driven_, loads_);
+    else
+      system_ = std::make_unique<System<Model>>(body_, pairs_, inertia_, driven_, loads_);
+    reactions_.setZero(u_.size());
+    if (time_ != 0) return;
+    const auto require = [](const Trouble& t) {
+      if (t) throw std::invalid_argument(std::string("the start is not a state: ") + describe(t.cause));
+    };
+    if constexpr (with_contact) {
+      for_each_contact(pairs_, [&](auto& pair) { pair.start(body_.mesh(), u_, time_); });
+      require(system_->measure(u_));
+    }
+    if constexpr (has_inertia<Model>) require(system_->start(u_, time_));
+  }
+
+  // Guesses the displacements after a step dt: the last increment again; for lack of one, with inertia those of
+  // velocity and acceleration. Without either they are the converged ones, and it is false.
+  bool guess(Real dt, Field& u) {
+    u = u_;
+    const Real h = last_dt_;
+    if (h > 0) u += dt / h * last_increment_;
+    if constexpr (has_inertia<Model>) {
+      // Inertia keeps the path smooth, so its bend is worth half a guess; quasi-static paths have kinks.
+      if (const Real before = increment_before_dt_; h > 0 && before > 0)
+        u += 0.5 * dt * (dt + h) / (h + before) * (last_increment_ / h - increment_before_ / before);
+      inertia_->begin(u_, dt);
+      if (!(h > 0)) inertia_->predict(u);
+      return true;
+    }
+    return h > 0;
+  }
+  // Makes the state of the last evaluation, at the displacements u, the converged one.
+  void accept(const Field& u, Real time, Real dt) {
+    system_->commit();
+    if constexpr (has_inertia<Model>) {
+      increment_before_.swap(last_increment_);
+      increment_before_dt_ = last_dt_;
+    }
+    last_increment_ = u - u_;
+    last_dt_ = dt;
+    u_ = u;
+    time_ = time;
+    for (Index c = 0; c < system_->dofs().components(); ++c) reactions_[c] = system_->reaction(c);
+  }
+
   // What the scene is of, and its converged state.
   void serialize(Archive& archive) {
     archive.same("kinematics", type_name<typename Model::Kinematics>());
@@ -159,7 +208,7 @@ class Scene {
 
   template <class Friction>
   void add_contacts(const std::vector<Contact<Model, Friction>>& contacts,
-                    std::vector<ContactPair<Model, Friction>>& pairs) requires with_contact {
+                    detail::PairList<Model, Friction>& pairs) requires with_contact {
     for (const auto& c : contacts) {
       visit_contacts([&](const auto& pair) {
         if (pair.name() == (c.name.empty() ? c.side : c.name))
@@ -170,7 +219,7 @@ class Scene {
   }
   template <class... Frictions>
   void add_contacts(const std::tuple<std::vector<Contact<Model, Frictions>>...>& contacts,
-                    std::tuple<std::vector<ContactPair<Model, Frictions>>...>& pairs) requires with_contact {
+                    std::tuple<detail::PairList<Model, Frictions>...>& pairs) requires with_contact {
     [&]<std::size_t... i>(std::index_sequence<i...>) {
       (add_contacts(std::get<i>(contacts), std::get<i>(pairs)), ...);
     }

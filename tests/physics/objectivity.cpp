@@ -48,7 +48,7 @@ TEST_CASE("contact: body and tool that turn together feel nothing of it") {
   const V centre(3, -1);
   const auto pose = [&](Real t) { return t <= 1 ? rigid::turned(0, centre) : rigid::turned(turn, centre); };
   Body<M> body(mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}), {}, material<FiniteJ2<LinearHardening>>());
-  std::vector<ContactPair<M>> pairs;
+  ContactPairs<M> pairs;
   pairs.emplace_back(Contact<M>{.side = "bottom",
                                 .tool = rigid::disc({1, -3}, 3),
                                 .motion = pose,
@@ -58,18 +58,18 @@ TEST_CASE("contact: body and tool that turn together feel nothing of it") {
   typename System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {}, {});
   Field u = Field::Zero(system.dofs().components());
-  CHECK_FALSE(bool(pairs[0].start(body.mesh(), u, 0)));
+  pairs.front().start(body.mesh(), u, 0);
   // Into the tool, then along it: some nodes slide, some stick.
   for (Index n = 0; n < body.mesh().node_count(); ++n) u[2 * n + 1] = -0.05;
   CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
   system.commit();
-  const auto pressed = pairs[0].states();
+  const auto pressed = pairs.front().states();
   for (Index n = 0; n < body.mesh().node_count(); ++n) u[2 * n] += 0.004;
   CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
   system.commit();
   CHECK_FALSE(bool(system.evaluate(u, 1, 1)));  // once more in place, so that the lagging bound has caught up
   system.commit();
-  const auto before = pairs[0].states();
+  const auto before = pairs.front().states();
   const Field forces = system.residual();
   CHECK(system.contact_summary().touching >= 3);
   Field turned = u;
@@ -81,7 +81,7 @@ TEST_CASE("contact: body and tool that turn together feel nothing of it") {
   CHECK_FALSE(bool(system.evaluate(turned, 2, 1)));
   CHECK(system.contact_summary().dissipated < 1e-12);
   system.commit();
-  const auto& after = pairs[0].states();
+  const auto& after = pairs.front().states();
   Real friction = 0;
   for (std::size_t k = 0; k < after.size(); ++k) {
     CHECK(after[k].touching == before[k].touching);
@@ -109,7 +109,7 @@ TEST_CASE("contact in space: body and tool that turn together about a skew axis 
     for (int j = 0; j < 3; ++j) turning.rotation(i, j) = R(i, j);
   turning.translation = W(3, -1, 2);
   Body<M> body(mesh::box({.size = {2, 1, 1}, .cells = {4, 2, 2}}), {}, material<FiniteJ2<LinearHardening>>());
-  std::vector<ContactPair<M>> pairs;
+  ContactPairs<M> pairs;
   pairs.emplace_back(Contact<M>{.side = "back",  // z = 0
                                 .tool = rigid::sphere({1, 0.5, -3}, 3),
                                 .motion = [&](Real t) { return t <= 1 ? rigid::Pose<3>{} : turning; },
@@ -119,7 +119,7 @@ TEST_CASE("contact in space: body and tool that turn together about a skew axis 
   typename System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {}, {});
   Field u = Field::Zero(system.dofs().components());
-  CHECK_FALSE(bool(pairs[0].start(body.mesh(), u, 0)));
+  pairs.front().start(body.mesh(), u, 0);
   for (Index n = 0; n < body.mesh().node_count(); ++n) u[3 * n + 2] = -0.1;
   CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
   system.commit();
@@ -128,7 +128,7 @@ TEST_CASE("contact in space: body and tool that turn together about a skew axis 
   system.commit();
   CHECK_FALSE(bool(system.evaluate(u, 1, 1)));  // once more in place, so that the lagging bound has caught up
   system.commit();
-  const auto before = pairs[0].states();
+  const auto before = pairs.front().states();
   CHECK(system.contact_summary().touching >= 3);
   Field turned = u;
   for (Index n = 0; n < body.mesh().node_count(); ++n) {
@@ -137,7 +137,7 @@ TEST_CASE("contact in space: body and tool that turn together about a skew axis 
   }
   CHECK_FALSE(bool(system.evaluate(turned, 2, 1)));
   system.commit();
-  const auto& after = pairs[0].states();
+  const auto& after = pairs.front().states();
   Real friction = 0;
   for (std::size_t k = 0; k < after.size(); ++k) {
     CHECK(after[k].touching == before[k].touching);

@@ -109,7 +109,7 @@ TEST_CASE("a symmetric system stores its lower triangle only") {
   const auto count = [&](auto tag) {
     using M = decltype(tag);
     Body<M> body(mesh, {}, {.young = 1, .poisson = 0.3});
-    std::vector<ContactPair<M>> pairs;
+    ContactPairs<M> pairs;
     typename System<M>::Inertia inertia{};
     System<M> system(body, pairs, inertia, {{"bottom", 1, nullptr}}, {});
     const SparseView view = system.matrix();

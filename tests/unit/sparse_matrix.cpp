@@ -24,9 +24,9 @@ Filled fill() {
   constrained[1] = constrained[6] = true;
   const Dofs dofs(10, constrained);
   SparseMatrix<storage> matrix;
-  matrix.build(dofs, [&](auto&& couple) {
-    for (const auto& g : groups) couple(std::span<const Index>(g));
-  });
+  SparsityPattern pattern(dofs, storage);
+  for (const auto& g : groups) pattern.couple(g);
+  matrix.build(pattern);
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(dofs.unknowns(), dofs.unknowns());
   std::mt19937 random(3);
   std::uniform_real_distribution<Real> u(-1, 1);
@@ -57,7 +57,9 @@ TEST_CASE("the view names its storage, and its rows ascend") {
   const Dofs dofs(4, std::vector<bool>(4, false));
   SparseMatrix<Symmetry::symmetric> matrix;
   const std::array<Index, 4> group{3, 1, 0, 2};
-  matrix.build(dofs, [&](auto&& couple) { couple(std::span<const Index>(group)); });
+  SparsityPattern pattern(dofs, Symmetry::symmetric);
+  pattern.couple(group);
+  matrix.build(pattern);
   const SparseView view = matrix.view();
   CHECK(view.symmetry == Symmetry::symmetric);
   CHECK(view.nonzeros() == 10);

@@ -78,6 +78,10 @@ class BodyOf {
     return c;
   }
 
+  /// Couples the components of every cell.
+  void couple(SparsityPattern& pattern) const {
+    for (Index e = 0; e < mesh_.cell_count(); ++e) pattern.couple(components(e));
+  }
   /// Makes the scatter maps into a matrix whose pattern stands.
   void connect(const Dofs& equations, const Matrix& matrix) {
     slots_.clear();

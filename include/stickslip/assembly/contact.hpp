@@ -45,28 +45,26 @@ template <class Model, class Friction = typename Model::Friction>
 using Contact = ContactOf<MechanicsOf<Model>, Friction>;
 
 namespace detail {
-template <class Model, class Friction, template <class...> class Of>
+template <class Model, class Friction, template <class, class> class List>
 struct ContactLists {
-  using type = std::vector<Of<Model, Friction>>;
+  using type = List<Model, Friction>;
 };
-template <class Model, class... Frictions, template <class...> class Of>
-struct ContactLists<Model, PerContact<Frictions...>, Of> {
-  using type = std::tuple<std::vector<Of<Model, Frictions>>...>;
+template <class Model, class... Frictions, template <class, class> class List>
+struct ContactLists<Model, PerContact<Frictions...>, List> {
+  using type = std::tuple<List<Model, Frictions>...>;
 };
+template <class Model, class Friction>
+using ContactList = std::vector<Contact<Model, Friction>>;
 }  // namespace detail
 
 /// The contacts of a bundle as the user gives them: a list, or one list a kind of friction.
 template <class Model>
-using Contacts = typename detail::ContactLists<Model, typename Model::Friction, Contact>::type;
+using Contacts = typename detail::ContactLists<Model, typename Model::Friction, detail::ContactList>::type;
 
 /// Calls visit on every entry of Contacts, or of what they become.
-template <class T, class Visit>
-void for_each_contact(std::vector<T>& list, Visit&& visit) {
-  for (T& one : list) visit(one);
-}
-template <class T, class Visit>
-void for_each_contact(const std::vector<T>& list, Visit&& visit) {
-  for (const T& one : list) visit(one);
+template <class List, class Visit>
+void for_each_contact(List& list, Visit&& visit) {
+  for (auto& one : list) visit(one);
 }
 template <class... Lists, class Visit>
 void for_each_contact(std::tuple<Lists...>& lists, Visit&& visit) {

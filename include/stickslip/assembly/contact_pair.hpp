@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <list>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -57,23 +58,19 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   template <class MeshType>
   ContactPair(const Contact<Model, Friction>& contact, const MeshType& mesh,
               const typename Model::Kinematics& kinematics)
-      : ContactRecord<dim>(contact.name, contact.side, contact.motion, mesh.side(contact.side).nodes),
+      : ContactRecord<dim>(contact.name, contact.side, contact.motion, mesh.side(contact.side).nodes,
+                           mesh.node_count()),
         tool_(contact.tool),
         friction_(contact.friction),
         enforcement_(contact.enforcement),
         weight_(nodes_.size(), 0.0),
         pressures_(nodes_.size()) {
-    if (nodes_.empty()) throw std::invalid_argument("contact \"" + name_ + "\": the side has no nodes");
-    for (const Index n : nodes_)
-      if (n < 0 || n >= mesh.node_count())
-        throw std::invalid_argument("contact \"" + name_ + "\": the side names a node that does not exist");
-    if (tool_.empty()) throw std::invalid_argument("contact \"" + name_ + "\": the tool has no surface");
+    if (tool_.empty()) this->refuse("the tool has no surface");
     if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
     if constexpr (with_friction)
       if constexpr (requires { friction_.validate(); }) friction_.validate();
     if constexpr (with_friction)
-      if (!(enforcement_.stick_stiffness(1) > 0))
-        throw std::invalid_argument("contact \"" + name_ + "\": friction needs a positive tangential stiffness");
+      if (!(enforcement_.stick_stiffness(1) > 0)) this->refuse("friction needs a positive tangential stiffness");
     if constexpr (remembers) {
       committed_.resize(nodes_.size());
       trial_.resize(nodes_.size());
@@ -124,9 +121,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       sum += weight_[k];
       found += weight_[k] > 0 ? 1 : 0;
     }
-    if (found == 0)
-      throw std::invalid_argument("contact \"" + name_ +
-                                  "\": the body has no stiffness at any of its nodes; give the penalty another unit");
+    if (found == 0) this->refuse("the body has no stiffness at any of its nodes; give the penalty another unit");
     for (Real& w : weight_)
       if (w == 0) w = sum / found;
   }
@@ -137,19 +132,18 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     return c;
   }
 
-  /// Takes the positions at `time` for the start of sliding.
+  /// Takes the positions at `time` for the start of sliding. Throws std::invalid_argument where the tool is nowhere.
   template <class MeshType>
-  Trouble start(const MeshType& mesh, const Field& u, Real time) {
+  void start(const MeshType& mesh, const Field& u, Real time) {
     const rigid::Pose<dim> pose = motion_.at(time);
-    if (const Trouble t = stretched(pose)) return t;
+    if (const Trouble t = stretched(pose)) this->refuse(describe(t.cause));
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const SurfacePoint<Real, dim> at = seen_from_tool(mesh, u, pose, nodes_[k]);
-      if (!std::isfinite(at.gap)) return {Cause::not_finite, {Place::Kind::contact_node, nodes_[k]}};
+      if (!std::isfinite(at.gap)) this->refuse("the tool's position or the distance to it is not finite at the start");
       states_[k].gap = at.gap;
       if constexpr (with_friction) committed_[k].friction.place = at.place;
     }
     if constexpr (passes || lags) begin_passes();
-    return {};
   }
 
   /// Begins an iteration: the pressures of the converged state become variables of their own.
@@ -254,41 +248,13 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   template <class MeshType>
   Trouble passed_through(const MeshType& mesh, const Field& from, const Field& to, Real begin, Real end) {
     rigid::poses_along(motion_, begin, end, poses_);
-    const std::size_t parts = poses_.size() - 1;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const Index n = nodes_[k];
       const Vec<Real, dim> u = from.template segment<dim>(n * dim), du = to.template segment<dim>(n * dim) - u;
-      const Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(n)] + u;
-      const auto way = [&](std::size_t i) -> Vec<Real, dim> {
-        return poses_[i].on_tool(x + Real(i) / Real(parts) * du);
-      };
-      Real length = 0;
-      Vec<Real, dim> here = way(0);
-      for (std::size_t i = 1; i <= parts; ++i) {
-        const Vec<Real, dim> next = way(i);
-        length += (next - here).norm();
-        here = next;
-      }
-      const Real first = states_[k].gap, last = trial_states_[k].gap, finest = 0.1 * spacing_[k];
-      const rigid::Passage<dim, Tool> passage{tool_, finest + std::max({0.0, -first, -last}), finest};
-      if (length <= first + last + 2 * passage.depth) continue;
-
-      Real gap = first, least = first;
-      here = way(0);
-      for (std::size_t i = 1; i <= parts && least >= -passage.depth; ++i) {
-        const Vec<Real, dim> next = way(i);
-        const Real there = i == parts ? last : distance_to<Real, dim>(tool_, next).gap;
-        least = there >= -passage.depth ? passage.least_gap(here, gap, next, there) : there;
-        here = next;
-        gap = there;
-      }
-      if (least >= -passage.depth) continue;
-      if (!std::isfinite(least)) return {Cause::not_finite, {Place::Kind::contact_node, n}};
-      // A node that touches may have gone around a convex tool: its way is the chord. Around, not through.
-      if (trial_states_[k].touching &&
-          passage.entered(way, parts).dot(distance_to<Real, dim>(tool_, way(parts)).normal) > -1e-3)
-        continue;
-      return {Cause::tunnelled, {Place::Kind::contact_node, n}};
+      rigid::Passage<dim, Tool> passed(tool_, poses_, 0.1 * spacing_[k]);
+      const Cause cause = passed(mesh.nodes[static_cast<std::size_t>(n)] + u, du, states_[k].gap, trial_states_[k].gap,
+                                 trial_states_[k].touching);
+      if (cause != Cause::none) return {cause, {Place::Kind::contact_node, n}};
     }
     return {};
   }
@@ -509,8 +475,14 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   [[no_unique_address]] Only<keeps_couplings<Model>, NodeEquations, Tool> equations_;
 };
 
+namespace detail {
+// A list: its pairs stay where they are, and growing it takes no code that moves them.
+template <class Model, class Friction>
+using PairList = std::list<ContactPair<Model, Friction>>;
+}  // namespace detail
+
 /// The pairs that the contacts of a bundle become.
 template <class Model>
-using ContactPairs = typename detail::ContactLists<Model, typename Model::Friction, ContactPair>::type;
+using ContactPairs = typename detail::ContactLists<Model, typename Model::Friction, detail::PairList>::type;
 
 }  // namespace stickslip

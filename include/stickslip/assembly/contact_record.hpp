@@ -4,6 +4,7 @@
 #include <stickslip/geometry/pose.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,13 +65,22 @@ class ContactRecord {
   const Vec<Real, dim>& force() const { return force_; }
 
  protected:
-  ContactRecord(std::string name, std::string side, rigid::Motion<dim> motion, std::vector<Index> nodes)
+  // Throws std::invalid_argument where the side has no nodes, or one that a mesh of `node_count` does not have.
+  ContactRecord(std::string name, std::string side, rigid::Motion<dim> motion, std::vector<Index> nodes,
+                Index node_count)
       : name_(name.empty() ? side : std::move(name)),
         side_(std::move(side)),
         motion_(std::move(motion)),
         nodes_(std::move(nodes)),
         states_(nodes_.size()),
-        trial_states_(nodes_.size()) {}
+        trial_states_(nodes_.size()) {
+    if (nodes_.empty()) refuse("the side has no nodes");
+    for (const Index n : nodes_)
+      if (n < 0 || n >= node_count) refuse("the side names a node that does not exist");
+  }
+  [[noreturn]] void refuse(const char* reason) const {
+    throw std::invalid_argument("contact \"" + name_ + "\": " + reason);
+  }
 
   std::string name_, side_;
   rigid::Motion<dim> motion_;

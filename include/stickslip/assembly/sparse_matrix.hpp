@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/assembly/dofs.hpp>
+#include <stickslip/assembly/sparsity_pattern.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <vector>
 
 namespace stickslip {
@@ -22,27 +21,9 @@ class SparseMatrix {
   /// lower triangle.
   static constexpr int block_entries(int n) { return storage == Symmetry::symmetric ? n * (n + 1) / 2 : n * n; }
 
-  /// Makes the pattern of all couplings within the groups of components that `for_each_group` visits.
-  template <class ForEachGroup>
-  void build(const Dofs& dofs, ForEachGroup&& for_each_group) {
-    const Index n = dofs.unknowns();
-    std::vector<std::vector<Index>> columns(static_cast<std::size_t>(n));
-    for_each_group([&](std::span<const Index> components) {
-      for (const Index a : components)
-        for (const Index b : components) {
-          const Index row = dofs.equation(a), column = dofs.equation(b);
-          if (row == Dofs::constrained || column == Dofs::constrained) continue;
-          if (storage == Symmetry::general || row >= column) columns[static_cast<std::size_t>(column)].push_back(row);
-        }
-    });
-    column_start_.assign(1, 0);
-    row_.clear();
-    for (auto& column : columns) {
-      std::sort(column.begin(), column.end());
-      column.erase(std::unique(column.begin(), column.end()), column.end());
-      row_.insert(row_.end(), column.begin(), column.end());
-      column_start_.push_back(static_cast<Index>(row_.size()));
-    }
+  /// Takes a pattern that was made for this storage, in full.
+  void build(SparsityPattern& pattern) {
+    pattern.compress(column_start_, row_);
     values_.assign(row_.size() + 1, 0.0);
   }
 

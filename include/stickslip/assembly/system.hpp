@@ -4,25 +4,17 @@
 #include <stickslip/assembly/body.hpp>
 #include <stickslip/assembly/contact_pair.hpp>
 #include <stickslip/assembly/inertia.hpp>
+#include <stickslip/assembly/prescribed.hpp>
 #include <stickslip/assembly/rigid_motions.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <string>
 #include <type_traits>
 #include <vector>
 
 namespace stickslip {
-
-/// A component of all nodes of a side, as a function of time.
-struct SideValue {
-  std::string side;
-  Index component;
-  std::function<Real(Real)> value;  ///< displacement [length] or total force [force]
-};
 
 /// Wall time spent so far [s].
 struct Timings {
@@ -66,33 +58,15 @@ class System {
 
   System(BodyType& body, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
          const std::vector<SideValue>& loads)
-      : body_(body), pairs_(pairs), inertia_(inertia) {
+      : body_(body), pairs_(pairs), inertia_(inertia), extent_(body.mesh().extent()) {
     const Index components = body.mesh().node_count() * dim;
-    for (const auto& X : body.mesh().nodes) extent_ = std::max(extent_, X.template lpNorm<Eigen::Infinity>());
-    std::vector<bool> constrained(static_cast<std::size_t>(components), false);
-    for (const SideValue& d : driven) {
-      driven_.push_back({d.value, {}});
-      for (const Index n : body.mesh().side(d.side).nodes) {
-        const Index c = n * dim + d.component;
-        constrained[static_cast<std::size_t>(c)] = true;
-        driven_.back().components.push_back(c);
-      }
-    }
-    for (const SideValue& l : loads) {
-      loads_.push_back({l.value, {}, {}});
-      Real total = 0;
-      for (const Index n : body.mesh().side(l.side).nodes) loads_.back().components.push_back(n * dim + l.component);
-      loads_.back().shares = nodal_areas(body.mesh(), body.kinematics(), l.side);
-      for (const Real share : loads_.back().shares) total += share;
-      for (Real& s : loads_.back().shares) s /= total;
-    }
-    dofs_ = Dofs(components, constrained);
-    matrix_.build(dofs_, [&](auto&& couple) {
-      for (Index e = 0; e < body.mesh().cell_count(); ++e) {
-        const auto c = body.components(e);
-        couple(std::span<const Index>(c));
-      }
-    });
+    for (const SideValue& d : driven) prescribed_.drive(d, body.mesh().side(d.side).nodes);
+    for (const SideValue& l : loads)
+      prescribed_.load(l, body.mesh().side(l.side).nodes, nodal_areas(body.mesh(), body.kinematics(), l.side));
+    dofs_ = prescribed_.unknowns_of(components);
+    SparsityPattern pattern(dofs_, BodyType::storage);
+    body.couple(pattern);
+    matrix_.build(pattern);
     body.connect(dofs_, matrix_);
     if constexpr (with_contact) {
       std::size_t nodes = 0;
@@ -118,15 +92,7 @@ class System {
   Index pattern_revision() const { return pattern_revision_; }
 
   /// Sets the driven and held components of a nodal field to their values at `time`.
-  Trouble impose(Real time, Field& u) const {
-    for (const Driven& d : driven_) {
-      const Real value = d.value ? d.value(time) : 0.0;
-      if (!std::isfinite(value))
-        return {Cause::not_finite, {Place::Kind::node, d.components.empty() ? -1 : d.components[0] / dim}};
-      for (const Index c : d.components) u[c] = value;
-    }
-    return {};
-  }
+  Trouble impose(Real time, Field& u) const { return prescribed_.impose(time, u); }
 
   /// Evaluates residual and tangent at the displacements u, `time` and the increment dt that leads there.
   Trouble evaluate(const Field& u, Real time, Real dt) { return evaluate(u, time, dt, nullptr, nullptr); }
@@ -307,16 +273,6 @@ class System {
   Timings timings;
 
  private:
-  struct Driven {
-    std::function<Real(Real)> value;  // empty: held at zero
-    std::vector<Index> components;
-  };
-  struct Load {
-    std::function<Real(Real)> value;
-    std::vector<Index> components;
-    std::vector<Real> shares;
-  };
-
   Trouble evaluate(const Field& u, Real time, Real dt, const Field* driven, Field* excess) {
     if (const Trouble t = assemble(u, time, dt, driven, excess)) return t;
     if constexpr (with_inertia) {
@@ -370,12 +326,7 @@ class System {
       if (trouble) return trouble;
     }
     external_.setZero();
-    for (const Load& l : loads_) {
-      const Real value = l.value(time);
-      if (!std::isfinite(value))
-        return {Cause::not_finite, {Place::Kind::node, l.components.empty() ? -1 : l.components[0] / dim}};
-      for (std::size_t k = 0; k < l.components.size(); ++k) external_[l.components[k]] += l.shares[k] * value;
-    }
+    if (const Trouble t = prescribed_.add_loads(time, external_)) return t;
     balance_ = internal_ + contact_ - external_;
     if (excess) balance_ += *excess;
     return {};
@@ -387,14 +338,13 @@ class System {
   Dofs dofs_;
   Matrix matrix_;
   [[no_unique_address]] Only<keeps_couplings<Model>, NodeCouplings<dim>, System> couplings_;
-  std::vector<Driven> driven_;
-  std::vector<Load> loads_;
+  Prescribed prescribed_{dim};
   Field internal_, contact_, external_, balance_, residual_;
   Field excess_;  // forces that closing the stiff relations' defects adds, by component
   Field open_;    // the residual without them
   [[no_unique_address]] Only<with_inertia, Field, System> static_force_;
   Real norm_ = 0, merit_ = 0;
-  Real extent_ = 0;  // largest reference coordinate
+  Real extent_;  // largest reference coordinate
   Index pattern_revision_ = 1;
 };
 

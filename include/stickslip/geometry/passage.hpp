@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/outcome.hpp>
 #include <stickslip/geometry/pose.hpp>
 #include <stickslip/geometry/surface_point.hpp>
 
@@ -26,38 +27,81 @@ void poses_along(const Motion<dim>& motion, Real begin, Real end, std::vector<Po
   }
 }
 
-/// Looks along a point's way past a tool, straight pieces in the tool's frame, for a place deeper inside it than
-/// `depth`. What lies less than `finest` below that may be missed (theory.md, eq. 4.19).
+/// Whether a point has gone through a tool on its way over a step (theory.md, eq. 4.19-4.21).
 template <int dim, class Tool>
-struct Passage {
+class Passage {
+ public:
   using V = Vec<Real, dim>;
-  const Tool& tool;
-  Real depth, finest;  ///< [length]
 
-  /// The gap at a place deeper than `depth` on the straight way from a to b, where the gaps are gap_a and gap_b, or the
-  /// smaller of these; not a number where the tool has none.
+  /// Looks in the tool's frame, at the poses along the step, for a place deeper inside the tool than the gaps at both
+  /// ends. What lies less than `finest` below that may be missed.
+  Passage(const Tool& tool, const std::vector<Pose<dim>>& poses, Real finest)
+      : tool_(tool), poses_(poses), finest_(finest) {}
+
+  /// From x by u, where the gaps are `first` and `last`. A point that `touches` at the end may have gone around a
+  /// convex tool: around, not through.
+  Cause operator()(const V& x, const V& u, Real first, Real last, bool touches) {
+    x_ = x;
+    u_ = u;
+    depth_ = finest_ + std::max({0.0, -first, -last});
+    const std::size_t parts = poses_.size() - 1;
+    Real length = 0;
+    V here = at(0);
+    for (std::size_t i = 1; i <= parts; ++i) {
+      const V next = at(i);
+      length += (next - here).norm();
+      here = next;
+    }
+    if (length <= first + last + 2 * depth_) return Cause::none;
+
+    Real gap = first, least = first;
+    here = at(0);
+    for (std::size_t i = 1; i <= parts && least >= -depth_; ++i) {
+      const V next = at(i);
+      const Real there = i == parts ? last : distance_to<Real, dim>(tool_, next).gap;
+      least = there >= -depth_ ? least_gap(here, gap, next, there) : there;
+      here = next;
+      gap = there;
+    }
+    if (least >= -depth_) return Cause::none;
+    if (!std::isfinite(least)) return Cause::not_finite;
+    // The way around is seen as its chord.
+    if (touches && entered().dot(distance_to<Real, dim>(tool_, at(parts)).normal) > -1e-3) return Cause::none;
+    return Cause::tunnelled;
+  }
+
+ private:
+  // Where the point is at a pose, in the tool's frame.
+  V at(std::size_t i) const { return poses_[i].on_tool(x_ + Real(i) / Real(poses_.size() - 1) * u_); }
+
+  // The gap at a place deeper than the depth on the straight way from a to b, where the gaps are gap_a and gap_b, or
+  // the smaller of these; not a number where the tool has none.
   Real least_gap(const V& a, Real gap_a, const V& b, Real gap_b) const {
     // A distance changes by no more than the way.
-    if ((b - a).norm() <= std::max(finest, gap_a + gap_b + 2 * depth)) return std::min(gap_a, gap_b);
+    if ((b - a).norm() <= std::max(finest_, gap_a + gap_b + 2 * depth_)) return std::min(gap_a, gap_b);
     const V middle = 0.5 * (a + b);
-    const Real gap = distance_to<Real, dim>(tool, middle).gap;
-    if (!(gap >= -depth)) return gap;
+    const Real gap = distance_to<Real, dim>(tool_, middle).gap;
+    if (!(gap >= -depth_)) return gap;
     const Real first = least_gap(a, gap_a, middle, gap);
-    return first >= -depth ? std::min(first, least_gap(middle, gap, b, gap_b)) : first;
+    return first >= -depth_ ? std::min(first, least_gap(middle, gap, b, gap_b)) : first;
   }
 
-  /// The tool's normal where the way enters it: `way(i)` for i from 0 to `parts`.
-  template <class Way>
-  V entered(const Way& way, std::size_t parts) const {
-    SurfacePoint<Real, dim> at = distance_to<Real, dim>(tool, way(0));
-    for (std::size_t i = 0; i < parts; ++i) {
-      const V a = way(i), b = way(i + 1);
+  // The tool's normal where the way enters it.
+  V entered() const {
+    SurfacePoint<Real, dim> point = distance_to<Real, dim>(tool_, at(0));
+    for (std::size_t i = 0; i + 1 < poses_.size(); ++i) {
+      const V a = at(i), b = at(i + 1);
       const Real length = (b - a).norm();
-      for (Real s = 0; s < length && at.gap > 0; s += std::max(at.gap, 0.5 * finest))
-        at = distance_to<Real, dim>(tool, a + s / length * (b - a));
+      for (Real s = 0; s < length && point.gap > 0; s += std::max(point.gap, 0.5 * finest_))
+        point = distance_to<Real, dim>(tool_, a + s / length * (b - a));
     }
-    return at.normal;
+    return point.normal;
   }
+
+  const Tool& tool_;
+  const std::vector<Pose<dim>>& poses_;
+  Real finest_, depth_ = 0;  // [length]
+  V x_, u_;
 };
 
 }  // namespace stickslip::rigid

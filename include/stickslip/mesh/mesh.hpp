@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -36,6 +37,13 @@ struct Mesh {
 
   Index node_count() const { return static_cast<Index>(nodes.size()); }
   Index cell_count() const { return static_cast<Index>(cells.size()); }
+  /// Largest magnitude of a coordinate [length].
+  Real extent() const {
+    Real largest = 0;
+    for (const auto& X : nodes)
+      for (int i = 0; i < dim; ++i) largest = std::max(largest, std::abs(X[i]));
+    return largest;
+  }
 
   /// The side called `name`; the error lists the names that there are.
   const Side<dim>& side(const std::string& name) const {
