@@ -8,7 +8,7 @@ import sys
 import tempfile
 
 compiler, eigen, root = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
-FLAGS = ["-std=c++20", "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", f"-I{root / 'include'}", "-isystem", eigen]
+FLAGS = ["-std=c++20", "-O1", "-DNDEBUG", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", f"-I{root / 'include'}", "-isystem", eigen]
 
 programs = []
 for document in ("README.md", "docs/policies.md"):

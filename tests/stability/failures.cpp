@@ -5,7 +5,7 @@
 
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 
-namespace {
+namespace failures {
 
 using namespace stability;
 
@@ -201,4 +201,4 @@ const Hard input(
       c.complains([&] { (void)moving()[0].play(s, {}); }, "start velocity");
     });
 
-}  // namespace
+}  // namespace failures

@@ -5,7 +5,7 @@
 
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 
-namespace {
+namespace tunnelling {
 
 using namespace scene;
 using stability::Case;
@@ -91,4 +91,4 @@ const Hard sweep("tunnelling", "a roller that sweeps over the whole body within 
                    c.small(p->displacement().norm(), 1e-8, "at rest");
                  });
 
-}  // namespace
+}  // namespace tunnelling
