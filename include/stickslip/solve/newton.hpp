@@ -163,14 +163,19 @@ class Newton {
       if constexpr (requires { solver_.factor_bytes(); })
         counts.factor_bytes = std::max(counts.factor_bytes, std::size_t(solver_.factor_bytes()));
     }
-    const Stopwatch watch(system.timings.solve);
     const Index corrections = corrections_so_far();
-    const bool solved = solver_.solve(system.residual().data(), step_.data());
+    const bool solved = substitute(system, system.residual(), step_);
     counts.corrections += corrections_so_far() - corrections;
     if (!solved || !step_.allFinite()) return {Cause::singular_matrix, {}};
     // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
     if (step_.lpNorm<Eigen::Infinity>() > 1e6 * system.extent()) return {Cause::singular_matrix, {}};
     return {};
+  }
+
+  template <class System>
+  bool substitute(System& system, const Field& right_hand_side, Field& solution) {
+    const Stopwatch watch(system.timings.solve);
+    return solver_.solve(right_hand_side.data(), solution.data());
   }
 
   // Makes step_, which the near tangent gave, the step of the tangent itself, whose products are differences of the
@@ -189,7 +194,7 @@ class Newton {
       Field& z = krylov.step();
       if (krylov.count() == 0)
         z = step_;
-      else if (!solver_.solve(krylov.next().data(), z.data()))
+      else if (!substitute(system, krylov.next(), z))
         return {Cause::singular_matrix, {}};
       const Real part = length * system.extent() / z.template lpNorm<Eigen::Infinity>();
       change_.setZero();
