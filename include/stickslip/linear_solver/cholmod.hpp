@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <new>
 
 namespace stickslip {
 
@@ -45,6 +46,7 @@ class Cholmod {
     a.xtype = CHOLMOD_PATTERN;
     common_->supernodal = CHOLMOD_AUTO;
     factor_ = cholmod_analyze(&a, common_.get());
+    enough_memory();
     refinement_.resize(pattern.size);
   }
 
@@ -55,15 +57,18 @@ class Cholmod {
     cholmod_sparse a = wrap(matrix);
     common_->final_ll = 0;
     cholmod_factorize(&a, factor_, common_.get());
+    enough_memory();
     indefinite_ = false;
     if (common_->status == CHOLMOD_OK && positive(*factor_)) return Factorization::done;
     indefinite_ = true;
     if (!indefinite_factor_) {
       common_->supernodal = CHOLMOD_SIMPLICIAL;
       indefinite_factor_ = cholmod_analyze(&a, common_.get());
+      enough_memory();
     }
     if (!indefinite_factor_) return Factorization::failed;
     cholmod_factorize(&a, indefinite_factor_, common_.get());
+    enough_memory();
     const bool good = common_->status == CHOLMOD_OK && indefinite_factor_->minor == indefinite_factor_->n;
     return good ? Factorization::indefinite : Factorization::failed;
   }
@@ -95,6 +100,11 @@ class Cholmod {
     a.sorted = 1;
     a.packed = 1;
     return a;
+  }
+
+  // Also where a factor has more entries than its integers count.
+  void enough_memory() const {
+    if (common_->status == CHOLMOD_OUT_OF_MEMORY || common_->status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
   }
 
   // A supernodal factor exists for positive matrices alone; a simplicial L D L^T shows its signs on the diagonal.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <vector>
 
 namespace stickslip {
@@ -105,7 +106,9 @@ class MumpsSolver {
     const OneBlasThread one;
     mumps_->job = job;
     dmumps_c(mumps_.get());
-    return mumps_->infog[0] >= 0;
+    const MUMPS_INT status = mumps_->infog[0];
+    if (status == -5 || status == -7 || status == -13) throw std::bad_alloc();
+    return status >= 0;
   }
 
   std::vector<MUMPS_INT> row_, column_;  // counted from 1

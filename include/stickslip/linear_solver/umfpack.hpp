@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <new>
 #include <vector>
 
 namespace stickslip {
@@ -32,8 +33,8 @@ class Umfpack {
 
   void analyze(const SparseView& pattern) {
     umfpack_di_free_symbolic(&symbolic_);
-    umfpack_di_symbolic(pattern.size, pattern.size, pattern.column_start, pattern.row, nullptr, &symbolic_,
-                        control_.data(), nullptr);
+    enough_memory(umfpack_di_symbolic(pattern.size, pattern.size, pattern.column_start, pattern.row, nullptr,
+                                      &symbolic_, control_.data(), nullptr));
     integers_.resize(static_cast<std::size_t>(pattern.size));
     reals_.resize(static_cast<std::size_t>(pattern.size));
     refinement_.resize(pattern.size);
@@ -67,8 +68,14 @@ class Umfpack {
     if (!symbolic_) return false;
     control_[UMFPACK_PIVOT_TOLERANCE] = pivot_tolerance;
     umfpack_di_free_numeric(&numeric_);
-    return umfpack_di_numeric(matrix_.column_start, matrix_.row, matrix_.values, symbolic_, &numeric_, control_.data(),
-                              info_.data()) == UMFPACK_OK;
+    const int status = umfpack_di_numeric(matrix_.column_start, matrix_.row, matrix_.values, symbolic_, &numeric_,
+                                          control_.data(), info_.data());
+    enough_memory(status);
+    return status == UMFPACK_OK;
+  }
+  // Also where a factor has more entries than its integers count.
+  static void enough_memory(int status) {
+    if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
   }
 
   std::array<double, UMFPACK_CONTROL> control_{};
