@@ -2,7 +2,6 @@
 """The punch in three dimensions: the command line and JSON of the axisymmetric program, and its forces."""
 
 import json
-import re
 import subprocess
 import sys
 
@@ -80,10 +79,6 @@ for line in lines[2:]:
     check(all(s >= 0 for s in seconds) and seconds[4] >= 0.99 * sum(seconds[:4]) - 2e-4, line)
 done = run(sheet, *options, "--memory", "0.1", "--refine", "3")
 check(done.returncode == 1 and done.stdout.count("failed within 0.1 GiB: no memory is left") == len(listed["quasi-coulomb"]), done.stdout + done.stderr)
-# Enough for the scene, not for a factor: a shortage is not told as a singular matrix.
-done = run(sheet, "--friction", "coulomb", "--travel", "0.1", "--refine", "3", "--solver-table", "on", "--memory", "0.3", "--patience", "10")
-for solver in ("mumps", "umfpack"):
-    check(re.search(f"^{solver} +failed within 0.3 GiB: no memory is left$", done.stdout, re.M), done.stdout + done.stderr)
 done = run(sheet, "--friction", "coulomb", "--travel", "40", "--steps", "100000", "--solver-table", "on", "--patience", "1")
 check(done.returncode == 1 and done.stdout.count("not done in 1 s") == len(general + corrected), done.stdout)
 print(f"{checks} passed, 0 failed")

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSL-1.0
+// A factor that memory does not hold is told as that, not as a singular matrix.
+#include <stickslip/linear_solver/cholmod.hpp>
+#include <stickslip/linear_solver/mumps.hpp>
+#include <stickslip/linear_solver/umfpack.hpp>
+
+#include <doctest/doctest.h>
+
+#include <malloc.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <new>
+#include <vector>
+
+namespace solvers_memory {
+
+using namespace stickslip;
+
+// The Laplacian of a cube of n points a side, in columns; a symmetric one as its lower triangle.
+struct Cube {
+  std::vector<Index> start{0}, row;
+  std::vector<Real> value;
+  Symmetry symmetry;
+
+  Cube(Index n, Symmetry storage) : symmetry(storage) {
+    for (Index c = 0; c < n * n * n; ++c) {
+      const auto add = [&](bool there, Index r, Real v) {
+        if (!there || (storage == Symmetry::symmetric && r < c)) return;
+        row.push_back(r);
+        value.push_back(v);
+      };
+      const Index x = c % n, y = c / n % n, z = c / (n * n);
+      add(z > 0, c - n * n, -1);
+      add(y > 0, c - n, -1);
+      add(x > 0, c - 1, -1);
+      add(true, c, 6);
+      add(x < n - 1, c + 1, -1);
+      add(y < n - 1, c + n, -1);
+      add(z < n - 1, c + n * n, -1);
+      start.push_back(static_cast<Index>(row.size()));
+    }
+  }
+  SparseView view() const {
+    return {static_cast<Index>(start.size()) - 1, start.data(), row.data(), value.data(), symmetry};
+  }
+};
+
+enum Told : int { done, singular, no_memory, other };
+
+// What a process tells that factorises a cube with no more than `bytes` besides what a small one took: OpenBLAS, which
+// makes room for itself the first time, waits for ever if there is none.
+template <class Solver>
+Told factorized(Index n, rlim_t bytes) {
+  const Cube small(8, Solver::storage), cube(n, Solver::storage);
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    alarm(60);
+    Told told = other;
+    try {
+      Solver solver;
+      solver.analyze(small.view());
+      if (solver.factorize(small.view()) != Factorization::done) _exit(other);
+      malloc_trim(0);
+      rlim_t pages = 0;
+      std::ifstream("/proc/self/statm") >> pages;
+      const rlim_t limit = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + bytes;
+      const rlimit memory{limit, limit};
+      setrlimit(RLIMIT_AS, &memory);
+      solver.analyze(cube.view());
+      told = solver.factorize(cube.view()) == Factorization::failed ? singular : done;
+    } catch (const std::bad_alloc&) {
+      told = no_memory;
+    } catch (...) {
+    }
+    _exit(told);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? static_cast<Told>(WEXITSTATUS(status)) : other;
+}
+
+// The shadow memory of AddressSanitizer takes more addresses than any limit leaves. GCC tells of it by a macro, Clang
+// by a feature.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ADDRESSES_CANNOT_BE_LIMITED
+#endif
+#endif
+#if !defined(__SANITIZE_ADDRESS__) && !defined(ADDRESSES_CANNOT_BE_LIMITED)
+TEST_CASE_TEMPLATE("a factor that does not fit", Solver, Cholmod, Umfpack, MumpsLdlt, MumpsLu) {
+  CHECK(factorized<Solver>(12, rlim_t(1) << 30) == done);
+  CHECK(factorized<Solver>(36, rlim_t(1) << 26) == no_memory);
+}
+#endif
+
+}  // namespace solvers_memory
