@@ -4,6 +4,9 @@
 #include <doctest/doctest.h>
 #include <Eigen/LU>
 
+#include <utility>
+#include <vector>
+
 namespace solvers {
 
 namespace {
@@ -42,14 +45,21 @@ const Matrix singular =
     lower(n, [](Index i, Index j) { return i == j || (i - j == 1 && j % 2 == 0 && j < 20) ? 1.0 : 0.0; });
 
 Matrix both_triangles(const Matrix& m) {
-  const Eigen::MatrixXd d = dense(m);
+  const SparseView v = m.view();
+  // By columns; what is mirrored to one comes before its own, so that rows ascend.
+  std::vector<std::vector<std::pair<Index, Real>>> columns(std::size_t(v.size));
+  for (Index j = 0; j < v.size; ++j)
+    for (Index k = v.column_start[j]; k < v.column_start[j + 1]; ++k) {
+      const Index i = v.row[k];
+      columns[std::size_t(j)].push_back({i, v.values[k]});
+      if (i != j) columns[std::size_t(i)].push_back({j, v.values[k]});
+    }
   Matrix full{{0}, {}, {}, Symmetry::general};
-  for (Index j = 0; j < d.cols(); ++j) {
-    for (Index i = 0; i < d.rows(); ++i)
-      if (d(i, j) != 0) {
-        full.row.push_back(i);
-        full.values.push_back(d(i, j));
-      }
+  for (const auto& column : columns) {
+    for (const auto& [row, value] : column) {
+      full.row.push_back(row);
+      full.values.push_back(value);
+    }
     full.start.push_back(Index(full.row.size()));
   }
   return full;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A factor that memory does not hold is told as that, not as a singular matrix.
+#include "solvers.hpp"
+
 #include <stickslip/linear_solver/cholmod.hpp>
 #include <stickslip/linear_solver/mumps.hpp>
 #include <stickslip/linear_solver/umfpack.hpp>
@@ -13,40 +15,28 @@
 
 #include <fstream>
 #include <new>
-#include <vector>
 
 namespace solvers_memory {
 
-using namespace stickslip;
+using namespace solvers;
 
-// The Laplacian of a cube of n points a side, in columns; a symmetric one as its lower triangle.
-struct Cube {
-  std::vector<Index> start{0}, row;
-  std::vector<Real> value;
-  Symmetry symmetry;
-
-  Cube(Index n, Symmetry storage) : symmetry(storage) {
-    for (Index c = 0; c < n * n * n; ++c) {
-      const auto add = [&](bool there, Index r, Real v) {
-        if (!there || (storage == Symmetry::symmetric && r < c)) return;
-        row.push_back(r);
-        value.push_back(v);
-      };
-      const Index x = c % n, y = c / n % n, z = c / (n * n);
-      add(z > 0, c - n * n, -1);
-      add(y > 0, c - n, -1);
-      add(x > 0, c - 1, -1);
-      add(true, c, 6);
-      add(x < n - 1, c + 1, -1);
-      add(y < n - 1, c + n, -1);
-      add(z < n - 1, c + n * n, -1);
-      start.push_back(static_cast<Index>(row.size()));
-    }
+// The lower triangle of the Laplacian of a cube of n points a side.
+Matrix laplacian(Index n) {
+  Matrix m{{0}, {}, {}, Symmetry::symmetric};
+  for (Index c = 0; c < n * n * n; ++c) {
+    const auto add = [&](bool there, Index r, Real v) {
+      if (!there) return;
+      m.row.push_back(r);
+      m.values.push_back(v);
+    };
+    add(true, c, 6);
+    add(c % n < n - 1, c + 1, -1);
+    add(c / n % n < n - 1, c + n, -1);
+    add(c / (n * n) < n - 1, c + n * n, -1);
+    m.start.push_back(static_cast<Index>(m.row.size()));
   }
-  SparseView view() const {
-    return {static_cast<Index>(start.size()) - 1, start.data(), row.data(), value.data(), symmetry};
-  }
-};
+  return m;
+}
 
 enum Told : int { done, singular, no_memory, other };
 
@@ -54,7 +44,7 @@ enum Told : int { done, singular, no_memory, other };
 // makes room for itself the first time, waits for ever if there is none.
 template <class Solver>
 Told factorized(Index n, rlim_t bytes) {
-  const Cube small(8, Solver::storage), cube(n, Solver::storage);
+  const Matrix small = stored<Solver>(laplacian(8)), cube = stored<Solver>(laplacian(n));
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {

@@ -18,7 +18,6 @@
 #include <array>
 #include <cmath>
 #include <list>
-#include <stdexcept>
 #include <string>
 #include <vector>
 

@@ -107,6 +107,7 @@ class MumpsSolver {
     mumps_->job = job;
     dmumps_c(mumps_.get());
     const MUMPS_INT status = mumps_->infog[0];
+    // What could not be allocated (users' guide, error codes): reals of the analysis, integers, work space.
     if (status == -5 || status == -7 || status == -13) throw std::bad_alloc();
     return status >= 0;
   }

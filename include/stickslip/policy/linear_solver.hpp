@@ -39,8 +39,9 @@ enum class Factorization {
 };
 
 /// A direct or iterative solver of the linear systems of Newton's method. `analyze` sees the pattern once and stands
-/// while the pattern does; it and `factorize` throw std::bad_alloc where memory does not suffice. `accepts` is the widest symmetry of a system that it can solve, `storage` that of the
-/// matrices it wants to be handed. docs/policies.md, section Linear solver.
+/// while the pattern does; it and `factorize` throw std::bad_alloc where memory does not suffice. `accepts` is the
+/// widest symmetry of a system that it can solve, `storage` that of the matrices it wants to be handed.
+/// docs/policies.md, section Linear solver.
 template <class L>
 concept LinearSolverPolicy = requires(L& solver, const SparseView& matrix, const Real* right_hand_side,
                                       Real* solution) {
