@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/assembly/system.hpp>
+#include <stickslip/base/nodal.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -71,8 +72,8 @@ class Scene {
       has_inertia<Model> {
     for (Index n = 0; n < body_.mesh().node_count(); ++n) {
       const Vec<Real, dim> v = velocity(body_.mesh().nodes[static_cast<std::size_t>(n)]);
-      if (!v.allFinite()) throw std::invalid_argument("start velocity: it is not finite at node " + std::to_string(n));
-      inertia_->velocity().template segment<dim>(n * dim) = v;
+      if (!is_finite(v)) throw std::invalid_argument("start velocity: it is not finite at node " + std::to_string(n));
+      for (int i = 0; i < dim; ++i) inertia_->velocity()[n * dim + i] = v[i];
     }
     return *this;
   }
@@ -87,7 +88,7 @@ class Scene {
   /// Converged nodal displacements, node * dim + component [length].
   const Field& displacement() const { return u_; }
   /// Displacement of a node [length].
-  Vec<Real, dim> displacement(Index node) const { return u_.template segment<dim>(node * dim); }
+  Vec<Real, dim> displacement(Index node) const { return at_node<dim>(u_, node); }
   /// Mass, velocity and acceleration.
   const InertiaForces<Model>& inertia() const requires has_inertia<Model> { return *inertia_; }
   Index unknowns() const { return system_ ? system_->dofs().unknowns() : 0; }

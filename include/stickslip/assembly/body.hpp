@@ -4,6 +4,7 @@
 #include <stickslip/assembly/sparse_matrix.hpp>
 #include <stickslip/mesh/mesh.hpp>
 #include <stickslip/policy/model.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <cmath>
 #include <stdexcept>
@@ -117,19 +118,13 @@ class BodyOf {
       if (cause != Cause::none) return {cause, {Place::Kind::element, e}};
       if (driven) {
         const Vec<Real, dofs> increment = gather(*driven, e);
-        if (!increment.isZero(0)) result_.residual += result_.tangent * increment;
+        if (contraction(increment, increment) != 0) add(result_.residual, product(result_.tangent, increment));
       }
       if (!std::isfinite(result_.residual.sum()) || !std::isfinite(result_.tangent.sum()))
         return {Cause::not_finite, {Place::Kind::element, e}};
-      const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
-      for (int a = 0; a < Element::nodes; ++a)
-        forces.template segment<dim>(cell[static_cast<std::size_t>(a)] * dim) +=
-            result_.residual.template segment<dim>(a * dim);
+      scatter(result_.residual, e, forces);
       if constexpr (stiff)
-        if (excess)
-          for (int a = 0; a < Element::nodes; ++a)
-            excess->template segment<dim>(cell[static_cast<std::size_t>(a)] * dim) +=
-                dilatations_[static_cast<std::size_t>(e)].excess.template segment<dim>(a * dim);
+        if (excess) scatter(dilatations_[static_cast<std::size_t>(e)].excess, e, *excess);
       matrix.add(slots_[static_cast<std::size_t>(e)], result_.tangent);
       trial_.store(e, result_.states);
     }
@@ -188,7 +183,7 @@ class BodyOf {
       const Index n = cell[static_cast<std::size_t>(a)];
       if (n < 0 || n >= mesh_.node_count())
         throw std::invalid_argument("body: cell " + std::to_string(e) + " names a node that does not exist");
-      X.row(a) = mesh_.nodes[static_cast<std::size_t>(n)].transpose();
+      for (int i = 0; i < dim; ++i) X(a, i) = mesh_.nodes[static_cast<std::size_t>(n)][i];
     }
     Geometry geometry;
     const auto rule = Element::Cell::quadrature();
@@ -206,8 +201,13 @@ class BodyOf {
     Vec<Real, dofs> local;
     const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
     for (int a = 0; a < Element::nodes; ++a)
-      local.template segment<dim>(a * dim) = field.template segment<dim>(cell[static_cast<std::size_t>(a)] * dim);
+      for (int i = 0; i < dim; ++i) local[a * dim + i] = field[cell[static_cast<std::size_t>(a)] * dim + i];
     return local;
+  }
+  void scatter(const Vec<Real, dofs>& local, Index e, Field& field) const {
+    const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
+    for (int a = 0; a < Element::nodes; ++a)
+      for (int i = 0; i < dim; ++i) field[cell[static_cast<std::size_t>(a)] * dim + i] += local[a * dim + i];
   }
 
   MeshType mesh_;

@@ -8,6 +8,7 @@
 #include <stickslip/policy/enforcement.hpp>
 #include <stickslip/policy/friction.hpp>
 #include <stickslip/policy/stiff_relation.hpp>
+#include <stickslip/tensor/products.hpp>
 
 namespace stickslip {
 
@@ -77,9 +78,9 @@ Vec<S, place_components<dim>> along_surface(const Vec<S, place_components<dim>>&
   if constexpr (dim == 2) {
     return traction;
   } else {
-    const Vec<S, 3> flat = traction - normal * normal.dot(traction);
+    const Vec<S, 3> flat = minus(traction, scaled(normal, contraction(normal, traction)));
     const S before = detail::magnitude<S, 3>(traction), after = detail::magnitude<S, 3>(flat);
-    return value_of(after) > 0 ? Vec<S, 3>(flat * S(before / after)) : flat;
+    return value_of(after) > 0 ? scaled<S>(flat, before / after) : flat;
   }
 }
 
@@ -102,9 +103,11 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
   if (!out.touching) return out;
 
   const S now = value_of(pressure) > 0 ? pressure : S(0);
-  Vec<S, dim> by_pressure = -at.normal;  // d force / d pressure
-  out.force = by_pressure * now;
-  out.stiffness = at.normal * at.normal.transpose() * normal.d_gap - at.hess_gap * now;
+  Vec<S, dim> by_pressure = scaled(at.normal, S(-1));  // d force / d pressure
+  out.force = scaled(by_pressure, now);
+  for (int j = 0; j < dim; ++j)
+    for (int i = 0; i < dim; ++i)
+      out.stiffness(i, j) = at.normal[i] * at.normal[j] * normal.d_gap - at.hess_gap(i, j) * now;
 
   if constexpr (Friction::active) {
     using Pressure = typename Friction::Pressure;
@@ -116,7 +119,8 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     const auto bound_at = [&](const S& normal_force, const S& slide) {
       return bound_after(law, normal_force, old.friction.slip, slide, area, dt);
     };
-    const Vec<S, m> trial = old.friction.traction + slipped * stiffness;
+    Vec<S, m> trial = old.friction.traction;
+    add(trial, slipped, stiffness);
     FrictionReturn<S, m> end;
     if constexpr (is_anisotropic<Law>)
       end = elliptic_return<S>(trial, stiffness, law.metric(), bound_at(felt, S(0)));
@@ -128,17 +132,18 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     out.dissipated = end.bound * end.slide;
     if (end.sliding) out.slides = end.traction;
     if (end.sliding && held) {
-      out.beyond = at.grad_place * (trial - end.traction);
-      end.d_place = Mat<S, m>::Identity() * stiffness;
+      out.beyond = product(at.grad_place, minus(trial, end.traction));
+      end.d_place = isotropic<m>(stiffness);
       end.d_pressure.setZero();
     }
-    out.force += at.grad_place * end.traction;
-    out.stiffness += at.grad_place * end.d_place * at.grad_place.transpose();
-    for (int k = 0; k < m; ++k) out.stiffness += at.hess_place[static_cast<std::size_t>(k)] * end.traction[k];
+    add(out.force, product(at.grad_place, end.traction));
+    add(out.stiffness, product_transposed(product(at.grad_place, end.d_place), at.grad_place));
+    for (int k = 0; k < m; ++k) add(out.stiffness, at.hess_place[static_cast<std::size_t>(k)], end.traction[k]);
     if constexpr (follows_pressure) {
-      by_pressure += at.grad_place * end.d_pressure;
+      const Vec<S, dim> of_friction = product(at.grad_place, end.d_pressure);
+      add(by_pressure, of_friction);
       if constexpr (!is_symmetrised<Pressure>())
-        out.coupling = at.grad_place * end.d_pressure * at.normal.transpose() * S(-normal.d_gap);
+        out.coupling = product_transposed(of_friction, scaled(at.normal, S(-normal.d_gap)));
     }
 
     out.bound = end.bound;
@@ -154,8 +159,8 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
   if constexpr (is_augmented<Enforcement>) out.memory.enforcement = enforcement.augmented(now);
   out.pressure.value = now;
   out.pressure.defect = -normal.value - now;
-  out.pressure.slope = at.normal * -normal.d_gap;
-  out.pressure.excess = by_pressure * out.pressure.defect;
+  out.pressure.slope = scaled(at.normal, S(-normal.d_gap));
+  out.pressure.excess = scaled(by_pressure, out.pressure.defect);
   return out;
 }
 

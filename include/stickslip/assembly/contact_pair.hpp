@@ -7,12 +7,14 @@
 #include <stickslip/assembly/facet.hpp>
 #include <stickslip/assembly/node_couplings.hpp>
 #include <stickslip/assembly/sparse_matrix.hpp>
+#include <stickslip/base/nodal.hpp>
 #include <stickslip/base/relaxation.hpp>
 #include <stickslip/geometry/passage.hpp>
 #include <stickslip/geometry/pose.hpp>
 #include <stickslip/geometry/tool.hpp>
 #include <stickslip/mesh/mesh.hpp>
 #include <stickslip/policy/model.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
 #include <array>
@@ -152,8 +154,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   }
   /// Makes the pressures follow the change du of the displacements, and close a share of their defects.
   void follow(const Field& du, Real closing) {
-    for (std::size_t k = 0; k < nodes_.size(); ++k)
-      pressures_.follow(k, du.template segment<dim>(nodes_[k] * dim), closing);
+    for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_.follow(k, at_node<dim>(du, nodes_[k]), closing);
     if constexpr (with_friction)
       for (Turning& t : turning_) {
         if (closing == 0) break;  // a probe of the tangent is no step of the iteration
@@ -210,26 +211,28 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         summary_.max_slip = std::max(summary_.max_slip, state.slip);
       }
       if (!node.touching) continue;
-      state.force = pose.rotation * node.force;
-      const Mat<Real, dim> whole = pose.rotation * (node.stiffness + node.coupling) * pose.rotation.transpose();
-      if (!state.force.allFinite() || !whole.allFinite()) return {Cause::not_finite, {Place::Kind::contact_node, n}};
-      forces.template segment<dim>(n * dim) += state.force;
+      state.force = product(pose.rotation, node.force);
+      Mat<Real, dim> whole = node.stiffness;
+      add(whole, node.coupling);
+      whole = turned_into_space(pose, whole);
+      if (!is_finite(state.force) || !is_finite(whole)) return {Cause::not_finite, {Place::Kind::contact_node, n}};
+      add_at_node(forces, n, state.force);
       if (excess) {
-        pressures_[k].slope = pose.rotation * node.pressure.slope;
-        pressures_[k].excess = pose.rotation * node.pressure.excess;
-        excess->template segment<dim>(n * dim) += pressures_[k].excess;
-        if constexpr (with_friction) excess->template segment<dim>(n * dim) += pose.rotation * node.beyond;
+        pressures_[k].slope = product(pose.rotation, node.pressure.slope);
+        pressures_[k].excess = product(pose.rotation, node.pressure.excess);
+        add_at_node(*excess, n, pressures_[k].excess);
+        if constexpr (with_friction) add_at_node(*excess, n, product(pose.rotation, node.beyond));
       }
-      if (driven) forces.template segment<dim>(n * dim) += whole * driven->template segment<dim>(n * dim);
+      if (driven) add_at_node(forces, n, product(whole, at_node<dim>(*driven, n)));
       if constexpr (keeps_couplings<Model>) {
-        const Mat<Real, dim> symmetric = pose.rotation * node.stiffness * pose.rotation.transpose();
+        const Mat<Real, dim> symmetric = turned_into_space(pose, node.stiffness);
         matrix.add(slots_[k], symmetric);
-        if (node.sliding) couplings.add(equations_[k], whole - symmetric);
+        if (node.sliding) couplings.add(equations_[k], minus(whole, symmetric));
       } else {
         matrix.add(slots_[k], whole);
       }
 
-      trial_force_ += state.force;
+      add(trial_force_, state.force);
       ++summary_.touching;
       summary_.sliding += node.sliding ? 1 : 0;
       summary_.max_penetration = std::max(summary_.max_penetration, -at.gap);
@@ -249,10 +252,12 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     rigid::poses_along(motion_, begin, end, poses_);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const Index n = nodes_[k];
-      const Vec<Real, dim> u = from.template segment<dim>(n * dim), du = to.template segment<dim>(n * dim) - u;
+      const Vec<Real, dim> u = at_node<dim>(from, n);
+      Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(n)];
+      add(x, u);
       rigid::Passage<dim, Tool> passed(tool_, poses_, 0.1 * spacing_[k]);
-      const Cause cause = passed(mesh.nodes[static_cast<std::size_t>(n)] + u, du, states_[k].gap, trial_states_[k].gap,
-                                 trial_states_[k].touching);
+      const Cause cause =
+          passed(x, minus(at_node<dim>(to, n), u), states_[k].gap, trial_states_[k].gap, trial_states_[k].touching);
       if (cause != Cause::none) return {cause, {Place::Kind::contact_node, n}};
     }
     return {};
@@ -373,7 +378,12 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
 
   template <class MeshType>
   static Vec<Real, dim> on_tool(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose, Index node) {
-    return pose.on_tool(mesh.nodes[static_cast<std::size_t>(node)] + u.template segment<dim>(node * dim));
+    Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(node)];
+    add(x, at_node<dim>(u, node));
+    return pose.on_tool(x);
+  }
+  static Mat<Real, dim> turned_into_space(const rigid::Pose<dim>& pose, const Mat<Real, dim>& stiffness) {
+    return product_transposed(product(pose.rotation, stiffness), pose.rotation);
   }
   // A pose that is finite but does not move the tool as a rigid body would; what is not finite tells its node.
   Trouble stretched(const rigid::Pose<dim>& pose) const {

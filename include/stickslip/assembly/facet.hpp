@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/mesh/mesh.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +21,8 @@ Real facet_share(const Mesh<2, nodes_per_cell>& mesh, const Kinematics& kinemati
   const Index other = node == facet[0] ? facet[1] : facet[0];
   const Vec<Real, 2>& here = mesh.nodes[static_cast<std::size_t>(node)];
   const Vec<Real, 2>& there = mesh.nodes[static_cast<std::size_t>(other)];
-  const Vec<Real, 2> third = (2 * here + there) / 3;
-  return 0.5 * (there - here).norm() * kinematics.measure(third);
+  const Vec<Real, 2> third((2 * here[0] + there[0]) / 3, (2 * here[1] + there[1]) / 3);
+  return 0.5 * std::hypot(there[0] - here[0], there[1] - here[1]) * kinematics.measure(third);
 }
 
 /// The same of a four-node facet in space (theory.md, eq. 1.2): exact for flat facets; a warped one counts with its
@@ -39,11 +40,19 @@ Real facet_share(const Mesh<3, nodes_per_cell>& mesh, const Kinematics& kinemati
     return V(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
   };
   // x = centre + xi along + eta across + xi eta twist, the node at (-1, -1).
-  const V along = (x[1] - x[0] + x[2] - x[3]) / 4, across = (x[3] - x[0] + x[2] - x[1]) / 4,
-          twist = (x[0] - x[1] + x[2] - x[3]) / 4, centre = (x[0] + x[1] + x[2] + x[3]) / 4;
-  const V normal = cross(along, across), change = cross(along, twist) + cross(twist, across);
-  const Real area = normal.norm();
-  return (area - normal.dot(change) / (3 * area)) * kinematics.measure(centre);
+  V along, across, twist, centre;
+  for (int i = 0; i < 3; ++i) {
+    const Real a = x[0][i], b = x[1][i], c = x[2][i], d = x[3][i];
+    along[i] = (b - a + c - d) / 4;
+    across[i] = (d - a + c - b) / 4;
+    twist[i] = (a - b + c - d) / 4;
+    centre[i] = (a + b + c + d) / 4;
+  }
+  const V normal = cross(along, across);
+  V change = cross(along, twist);
+  add(change, cross(twist, across));
+  const Real area = std::sqrt(contraction(normal, normal));
+  return (area - contraction(normal, change) / (3 * area)) * kinematics.measure(centre);
 }
 
 /// Calls visit(place in the side's list of nodes, node, facet) for every node of every facet of a side.

@@ -3,6 +3,7 @@
 
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/policy/friction.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <cmath>
 #include <utility>
@@ -48,8 +49,10 @@ S magnitude(const Vec<S, m>& v) {
   using std::sqrt;
   if constexpr (m == 1)
     return value_of(v[0]) < 0 ? S(-v[0]) : S(v[0]);
-  else
-    return value_of(v.squaredNorm()) > 0 ? S(sqrt(v.squaredNorm())) : S(0);
+  else {
+    const S square = contraction(v, v);
+    return value_of(square) > 0 ? S(sqrt(square)) : S(0);
+  }
 }
 
 /// Inverse of a small symmetric positive definite matrix, on any scalar.
@@ -62,7 +65,7 @@ Mat<S, 3> inverse(const Mat<S, 3>& a) {
       adjugate(j, i) = a(i1, j1) * a(i2, j2) - a(i1, j2) * a(i2, j1);
     }
   const S det = a(0, 0) * adjugate(0, 0) + a(0, 1) * adjugate(1, 0) + a(0, 2) * adjugate(2, 0);
-  return adjugate * S(S(1) / det);
+  return scaled<S>(adjugate, S(1) / det);
 }
 
 }  // namespace detail
@@ -73,7 +76,7 @@ template <class Law, class S, int m, class Bound>
 FrictionReturn<S, m> radial_return(const Vec<S, m>& trial, const S& stiffness, Bound&& bound_at) {
   const S size = detail::magnitude<S, m>(trial);
   FrictionBound<S> bound = bound_at(S(0));
-  FrictionReturn<S, m> out{.traction = trial, .d_place = Mat<S, m>::Identity() * stiffness};
+  FrictionReturn<S, m> out{.traction = trial, .d_place = isotropic<m>(stiffness)};
   out.bound = bound.value;
   if (value_of(size) < value_of(bound.value)) return out;
   out.sliding = true;
@@ -96,17 +99,22 @@ FrictionReturn<S, m> radial_return(const Vec<S, m>& trial, const S& stiffness, B
     // At the slide of the last step, which carries the derivatives of a dual number.
     bound = bound_at(lambda);
   }
-  const Vec<S, m> direction = value_of(size) > 0 ? Vec<S, m>(trial / size) : Vec<S, m>(Vec<S, m>::Zero());
+  Vec<S, m> direction;
+  for (int i = 0; i < m; ++i) direction[i] = value_of(size) > 0 ? S(trial[i] / size) : S(0);
   // A slide at which the bound falls faster than the stiffness unloads is not an equilibrium that could last; no
   // stiffness, no slip to solve for.
   const S resistance = stiffness + bound.d_slip;
   if (value_of(stiffness) > 0 && !(value_of(resistance) > 0)) out.cause = Cause::friction_failed;
   const S share = value_of(stiffness) > 0 ? S(stiffness / resistance) : S(0);
   const S ratio = value_of(size) > 0 ? S(bound.value / size) : S(0);
-  out.traction = direction * bound.value;
-  out.d_place = (Mat<S, m>::Identity() - direction * direction.transpose()) * S(ratio * stiffness) +
-                direction * direction.transpose() * S(share * bound.d_slip);
-  out.d_pressure = direction * S(share * bound.d_pressure);
+  out.traction = scaled(direction, bound.value);
+  const S across = ratio * stiffness, along = share * bound.d_slip;
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < m; ++i) {
+      const S n_n = direction[i] * direction[j];
+      out.d_place(i, j) = (S(i == j ? 1 : 0) - n_n) * across + n_n * along;
+    }
+  out.d_pressure = scaled<S>(direction, share * bound.d_pressure);
   out.slide = lambda;
   out.bound = bound.value;
   return out;
@@ -118,13 +126,12 @@ template <class S>
 FrictionReturn<S, 3> elliptic_return(const Vec<S, 3>& trial, const S& stiffness, const Mat<Real, 3>& metric,
                                      const FrictionBound<S>& bound) {
   using std::sqrt;
-  FrictionReturn<S, 3> out{.traction = trial, .d_place = Mat<S, 3>::Identity() * stiffness};
+  FrictionReturn<S, 3> out{.traction = trial, .d_place = isotropic<3>(stiffness)};
   out.bound = bound.value;
   Mat<S, 3> M;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) M(i, j) = S(metric(i, j));
-  const Vec<S, 3> start = M * trial;
-  const S square = trial.dot(start);
+  const S square = contraction(trial, product(M, trial));
   const S size = value_of(square) > 0 ? S(sqrt(square)) : S(0);
   if (value_of(size) < value_of(bound.value)) return out;
   out.sliding = true;
@@ -140,22 +147,25 @@ FrictionReturn<S, 3> elliptic_return(const Vec<S, 3>& trial, const S& stiffness,
   Vec<S, 3> traction;
   bool converged = false, last = false;
   for (int i = 0; i < 100; ++i) {
-    A = detail::inverse<S>(Mat<S, 3>::Identity() + M * eta);
-    traction = A * trial;
-    const Vec<S, 3> pull = M * traction;
-    const S now = sqrt(traction.dot(pull));
+    Mat<S, 3> to_trial = isotropic<3>(S(1));
+    add(to_trial, M, eta);
+    A = detail::inverse<S>(to_trial);
+    traction = product(A, trial);
+    const Vec<S, 3> pull = product(M, traction);
+    const S now = sqrt(contraction(traction, pull));
     if (last) break;
-    const S slope = pull.dot(Vec<S, 3>(A * pull)) / now;
+    const S slope = contraction(pull, product(A, pull)) / now;
     converged = std::abs(value_of(now) - value_of(bound.value)) <= 1e-14 * value_of(size);
     last = converged;  // one step more carries the derivatives of a dual number
     eta += (now - bound.value) / slope;
   }
   if (!converged) out.cause = Cause::friction_failed;
-  const Vec<S, 3> normal = M * traction * S(S(1) / bound.value), along = A * normal;
-  const S through = normal.dot(along);
+  const Vec<S, 3> normal = scaled<S>(product(M, traction), S(1) / bound.value), along = product(A, normal);
+  const S through = contraction(normal, along);
   out.traction = traction;
-  out.d_place = (A - along * along.transpose() * S(S(1) / through)) * stiffness;
-  out.d_pressure = along * S(bound.d_pressure / through);
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) out.d_place(i, j) = (A(i, j) - along[i] * along[j] / through) * stiffness;
+  out.d_pressure = scaled<S>(along, bound.d_pressure / through);
   out.slide = value_of(stiffness) > 0 ? S(eta * bound.value / stiffness) : S(0);
   return out;
 }

@@ -2,33 +2,39 @@
 #pragma once
 
 #include <stickslip/assembly/body.hpp>
+#include <stickslip/base/nodal.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace stickslip {
 
 /// Mass, velocity and acceleration of a body, and the weights of its time scheme (theory.md, section 7). Exists only in
 /// bundles with inertia.
-template <class Model>
-class InertiaForces {
+template <class BodyType, class Policy>
+class InertiaForcesOf {
  public:
-  using BodyType = Body<Model>;
   using Matrix = typename BodyType::Matrix;
+  using Element = typename BodyType::Element;
   static constexpr int dim = BodyType::dim;
-  static constexpr int nodes = Model::Element::nodes;
+  static constexpr int nodes = Element::nodes;
 
-  InertiaForces(const BodyType& body, const typename Model::Inertia& policy) : body_(body), policy_(policy) {
-    const auto rule = Model::Element::Cell::quadrature();
+  InertiaForcesOf(const BodyType& body, const Policy& policy) : body_(body), policy_(policy) {
+    const auto rule = Element::Cell::quadrature();
     mass_.reserve(body.mesh().cells.size());
     for (Index e = 0; e < body.mesh().cell_count(); ++e) {
       Mat<Real, nodes> m = Mat<Real, nodes>::Zero();
       for (std::size_t p = 0; p < rule.size(); ++p) {
-        const Vec<Real, nodes> N = Model::Element::Cell::shape(rule[p].xi);
-        m += policy.density * body.geometry(e)[p].weight * N * N.transpose();
+        const Vec<Real, nodes> N = Element::Cell::shape(rule[p].xi);
+        add(m, product_transposed(N, N), policy.density * body.geometry(e)[p].weight);
       }
-      if (policy.lumped) m = Mat<Real, nodes>(Vec<Real, nodes>(m.rowwise().sum()).asDiagonal());
+      if (policy.lumped)
+        for (int a = 0; a < nodes; ++a)
+          for (int b = 0; b < nodes; ++b)
+            if (a != b) m(a, a) += std::exchange(m(a, b), 0.0);
       mass_.push_back(m);
     }
     const Index components = body.mesh().node_count() * dim;
@@ -96,8 +102,9 @@ class InertiaForces {
       const Mat<Real, nodes>& m = mass_[static_cast<std::size_t>(e)];
       for (int a = 0; a < nodes; ++a)
         for (int b = 0; b < nodes; ++b)
-          target.template segment<dim>(cell[static_cast<std::size_t>(a)] * dim) +=
-              m(a, b) * field.template segment<dim>(cell[static_cast<std::size_t>(b)] * dim);
+          for (int i = 0; i < dim; ++i)
+            target[cell[static_cast<std::size_t>(a)] * dim + i] +=
+                m(a, b) * field[cell[static_cast<std::size_t>(b)] * dim + i];
     }
   }
 
@@ -105,9 +112,11 @@ class InertiaForces {
   /// over the nodes [length]. Call it after `apply`, before `commit`.
   Real local_error() const {
     Real largest = 0;
-    for (Index n = 0; n < body_.mesh().node_count(); ++n)
-      largest = std::max(largest, (trial_acceleration_ - acceleration_).template segment<dim>(n * dim).norm());
-    return std::abs(policy_.scheme.beta - Real(1) / 6) * dt_ * dt_ * largest;
+    for (Index n = 0; n < body_.mesh().node_count(); ++n) {
+      const Vec<Real, dim> change = minus(at_node<dim>(trial_acceleration_, n), at_node<dim>(acceleration_, n));
+      largest = std::max(largest, contraction(change, change));
+    }
+    return std::abs(policy_.scheme.beta - Real(1) / 6) * dt_ * dt_ * std::sqrt(largest);
   }
 
   /// The converged state.
@@ -129,11 +138,15 @@ class InertiaForces {
 
  private:
   const BodyType& body_;
-  typename Model::Inertia policy_;
+  Policy policy_;
   std::vector<Mat<Real, nodes>> mass_;  // of an element, between nodes: the same for every component
   Matrix matrix_;
   Field velocity_, acceleration_, start_, old_forces_, force_, trial_acceleration_, work_;
   Real dt_ = 0;
 };
+
+/// The inertia of a bundle; bundles that differ in contact or solver share it.
+template <class Model>
+using InertiaForces = InertiaForcesOf<Body<Model>, typename Model::Inertia>;
 
 }  // namespace stickslip

@@ -3,11 +3,12 @@
 
 #include <stickslip/assembly/dofs.hpp>
 #include <stickslip/base/null_space.hpp>
-#include <stickslip/base/types.hpp>
 #include <stickslip/policy/linear_solver.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -22,8 +23,11 @@ class RigidMotions {
   static constexpr int count = Kinematics::hoop ? 1 : dim + dim * (dim - 1) / 2;
 
   RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Field& u) : nodes_(nodes), u_(u) {
-    for (const auto& X : nodes) centre_ += X / Real(nodes.size());
-    for (const auto& X : nodes) extent_ = std::max(extent_, (X - centre_).norm());
+    for (const auto& X : nodes) add(centre_, X, 1 / Real(nodes.size()));
+    for (const auto& X : nodes) {
+      const Vec<Real, dim> from_centre = minus(X, centre_);
+      extent_ = std::max(extent_, std::sqrt(contraction(from_centre, from_centre)));
+    }
   }
 
   /// Largest distance of a node from the centre [length].

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/assembly/body.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
 #include <array>
@@ -35,16 +36,16 @@ class StressRecovery {
       const auto e = static_cast<std::size_t>(cell), p = static_cast<std::size_t>(point);
       Stress& cauchy = stress_[e][p];
       cauchy = kirchhoff(body.material().respond(F, state, 0.0).P, F);
-      cauchy.v /= determinant(F);
+      cauchy.v = scaled(cauchy.v, 1 / determinant(F));
       for (std::size_t a = 0; a < nodes; ++a) {
         const auto n = static_cast<std::size_t>(body.mesh().cells[e][a]);
         const Real share = weight * shape_[p][static_cast<int>(a)];
-        nodal_[n].v += share * cauchy.v;
+        add(nodal_[n].v, cauchy.v, share);
         share_[n] += share;
       }
     });
     for (std::size_t n = 0; n < nodal_.size(); ++n)
-      if (share_[n] > 0) nodal_[n].v /= share_[n];
+      if (share_[n] > 0) nodal_[n].v = scaled(nodal_[n].v, 1 / share_[n]);
     Real errors = 0, whole = 0;
     for (std::size_t e = 0; e < stress_.size(); ++e) {
       error_[e] = 0;
@@ -52,10 +53,10 @@ class StressRecovery {
       for (std::size_t p = 0; p < points; ++p) {
         const Real weight = body.geometry(static_cast<Index>(e))[p].weight;
         Stress off = stress_[e][p];
-        whole += weight * off.v.squaredNorm();
+        whole += weight * contraction(off.v, off.v);
         for (std::size_t a = 0; a < nodes; ++a)
-          off.v -= shape_[p][static_cast<int>(a)] * nodal_[static_cast<std::size_t>(body.mesh().cells[e][a])].v;
-        error_[e] += weight * off.v.squaredNorm();
+          add(off.v, nodal_[static_cast<std::size_t>(body.mesh().cells[e][a])].v, -shape_[p][static_cast<int>(a)]);
+        error_[e] += weight * contraction(off.v, off.v);
         volume += weight;
       }
       errors += error_[e];

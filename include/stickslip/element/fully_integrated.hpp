@@ -4,6 +4,7 @@
 #include <stickslip/element/gradient_operator.hpp>
 #include <stickslip/element/quad4.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/tensor/products.hpp>
 
 namespace stickslip {
 
@@ -42,8 +43,8 @@ struct FullyIntegrated {
       const auto answer = material.respond(F, old[p], dt);
       if (answer.cause != Cause::none) return answer.cause;
       const S weight = S(geometry[p].weight);
-      out.residual += pull_back(geometry[p], answer.P) * weight;
-      const Moduli<S, Shape> M = answer.dP_dF * weight;
+      add(out.residual, pull_back(geometry[p], answer.P), weight);
+      const Moduli<S, Shape> M = scaled(answer.dP_dF, weight);
       add_congruence<Material::symmetry>(geometry[p], M, out.tangent);
       out.states[p] = answer.state;
     }

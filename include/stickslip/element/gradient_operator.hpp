@@ -47,6 +47,7 @@ void add_congruence(const PointGeometry<Kinematics, nodes, G>& point, const Modu
   constexpr int dim = Kinematics::dim;
   for (int b = 0; b < nodes; ++b)
     for (int k = 0; k < dim; ++k) {
+      // Eigen's, not a loop: in space it saves a twentieth of the element.
       Vec<S, Shape::size> column = M.col(Shape::at(k, 0)) * point.dN_dX(b, 0);
       for (int L = 1; L < dim; ++L) column += M.col(Shape::at(k, L)) * point.dN_dX(b, L);
       if constexpr (Kinematics::hoop)
@@ -73,7 +74,8 @@ void add_dyad(const Vec<S, n>& left, const Vec<S, n>& right, Mat<S, n>& K) {
 template <int n, class S>
 void mirror(Mat<S, n>& K) {
   const Mat<S, n> lower = K;
-  K.template triangularView<Eigen::StrictlyUpper>() = lower.transpose();
+  for (int j = 1; j < n; ++j)
+    for (int i = 0; i < j; ++i) K(i, j) = lower(j, i);
 }
 
 }  // namespace stickslip

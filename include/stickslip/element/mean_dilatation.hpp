@@ -4,6 +4,7 @@
 #include <stickslip/element/gradient_operator.hpp>
 #include <stickslip/element/quad4.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <cmath>
 
@@ -67,9 +68,9 @@ struct MeanDilatation {
       const S v = J[p] * geometry[p].weight;
       reference += S(geometry[p].weight);
       volume += v;
-      mean_div += div[p] * v;
+      add(mean_div, div[p], v);
     }
-    mean_div /= volume;
+    mean_div = scaled<S>(mean_div, S(1) / volume);
     S theta = volume / reference;
     Vec<S, dofs> by_dilatation = Vec<S, dofs>::Zero();  // d force / d ln theta
     if (dilatation) {
@@ -87,34 +88,43 @@ struct MeanDilatation {
     for (std::size_t p = 0; p < points; ++p) {
       const S factor = pow(theta / J[p], Real(1) / 3);
       Tensor<S, Shape> F_bar;
-      F_bar.v = F[p].v * factor;
+      F_bar.v = scaled(F[p].v, factor);
       const auto answer = material.respond(F_bar, old[p], dt);
       if (answer.cause != Cause::none) return answer.cause;
       out.states[p] = answer.state;
 
       const S weight = S(geometry[p].weight);
-      const S trace_tau = answer.P.v.dot(F_bar.v) * weight;
-      const Vec<S, dofs> da = (mean_div - div[p]) * S(Real(1) / 3);  // delta ln factor
-      const Vec<S, dofs> stress_force = pull_back(geometry[p], answer.P) * S(weight * factor);
-      out.residual += stress_force + da * trace_tau;
+      const S trace_tau = contraction(answer.P.v, F_bar.v) * weight;
+      Vec<S, dofs> da = scaled(mean_div, S(Real(1) / 3));  // delta ln factor
+      add(da, div[p], S(Real(-1) / 3));
+      const Vec<S, dofs> stress_force = scaled<S>(pull_back(geometry[p], answer.P), weight * factor);
+      add(out.residual, stress_force);
+      add(out.residual, da, trace_tau);
 
       const S squared = weight * factor * factor;
       Tensor<S, Shape> moduli_F;
-      moduli_F.v = answer.dP_dF * F[p].v;
-      const S stretch = squared * F[p].v.dot(moduli_F.v) + trace_tau;
-      const Vec<S, dofs> left = stress_force + pull_back(geometry[p], moduli_F) * squared + da * (S(0.5) * stretch);
-      if (dilatation) by_dilatation += (left + da * (S(0.5) * stretch)) * S(Real(1) / 3);
+      moduli_F.v = product(answer.dP_dF, F[p].v);
+      const S half_stretch = S(0.5) * (squared * contraction(F[p].v, moduli_F.v) + trace_tau);
+      const auto with_da = [&](const Tensor<S, Shape>& moduli_times_F) {
+        Vec<S, dofs> sum = stress_force;
+        add(sum, pull_back(geometry[p], moduli_times_F), squared);
+        add(sum, da, half_stretch);
+        return sum;
+      };
+      const Vec<S, dofs> left = with_da(moduli_F);
+      if (dilatation) {
+        add(by_dilatation, left, S(Real(1) / 3));
+        add(by_dilatation, da, S(half_stretch * (Real(1) / 3)));
+      }
+      add_dyad<symmetry>(left, da, out.tangent);
       if constexpr (symmetry == Symmetry::symmetric) {
-        add_dyad<symmetry>(left, da, out.tangent);
         add_dyad<symmetry>(da, left, out.tangent);
       } else {
         Tensor<S, Shape> F_moduli;
-        F_moduli.v = answer.dP_dF.transpose() * F[p].v;
-        const Vec<S, dofs> right = stress_force + pull_back(geometry[p], F_moduli) * squared + da * (S(0.5) * stretch);
-        add_dyad<symmetry>(left, da, out.tangent);
-        add_dyad<symmetry>(da, right, out.tangent);
+        F_moduli.v = transposed_product(answer.dP_dF, F[p].v);
+        add_dyad<symmetry>(da, with_da(F_moduli), out.tangent);
       }
-      M[p] = answer.dP_dF * squared;
+      M[p] = scaled(answer.dP_dF, squared);
       spherical[p] = trace_tau / S(3);
       spherical_sum += spherical[p];
     }
@@ -132,13 +142,11 @@ struct MeanDilatation {
         }
       }
       add_congruence<symmetry>(geometry[p], M[p], out.tangent);
-      const Vec<S, dofs> scaled = div[p] * share;
-      add_dyad<symmetry>(scaled, div[p], out.tangent);
+      add_dyad<symmetry>(scaled(div[p], share), div[p], out.tangent);
     }
-    const Vec<S, dofs> scaled = mean_div * S(-spherical_sum);
-    add_dyad<symmetry>(scaled, mean_div, out.tangent);
+    add_dyad<symmetry>(scaled(mean_div, S(-spherical_sum)), mean_div, out.tangent);
     if constexpr (symmetry == Symmetry::symmetric) mirror(out.tangent);
-    if (dilatation) dilatation->excess = by_dilatation * dilatation->defect;
+    if (dilatation) dilatation->excess = scaled(by_dilatation, dilatation->defect);
     return Cause::none;
   }
 };

@@ -20,7 +20,7 @@ class Extruded {
   Extruded(Profile section, const Vec<Real, 3>& origin, const Vec<Real, 3>& first, const Vec<Real, 3>& second)
       : section_(std::move(section)), origin_(origin), first_(detail::unit(first, "extruded: the first direction")) {
     const Vec<Real, 3> v = detail::unit(second, "extruded: the second direction");
-    if (!origin.allFinite()) throw std::invalid_argument("extruded: the origin must be finite");
+    if (!is_finite(origin)) throw std::invalid_argument("extruded: the origin must be finite");
     if (!(std::abs(v.dot(first_)) < 1e-6))
       throw std::invalid_argument("extruded: the two directions must be at a right angle");
     second_ = (v - v.dot(first_) * first_).normalized();
@@ -33,14 +33,13 @@ class Extruded {
   template <class S>
   Distance<S, 3> distance(const Vec<S, 3>& x) const {
     const Vec<S, 3> v(x[0] - origin_[0], x[1] - origin_[1], x[2] - origin_[2]);
-    const Vec<S, 3> e = first_.template cast<S>(), f = second_.template cast<S>();
-    if (!detail::plain(v).allFinite()) return detail::nowhere<S>();
+    const Vec<S, 3> e = detail::lifted<S>(first_), f = detail::lifted<S>(second_);
+    if (!is_finite(detail::plain(v))) return detail::nowhere<S>();
     const auto at = section_.closest(Vec<S, 2>(detail::dot(e, v), detail::dot(f, v)));
     Distance<S, 3> out;
     out.gap = at.gap;
-    out.normal = e * at.normal[0] + f * at.normal[1];
-    out.hess_gap = e * e.transpose() * at.hess_gap(0, 0) + f * f.transpose() * at.hess_gap(1, 1) +
-                   (e * f.transpose() + f * e.transpose()) * at.hess_gap(0, 1);
+    for (int i = 0; i < 3; ++i) out.normal[i] = e[i] * at.normal[0] + f[i] * at.normal[1];
+    out.hess_gap = detail::dyads<S>(e, f, at.hess_gap(0, 0), at.hess_gap(1, 1), at.hess_gap(0, 1));
     return out;
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/base/types.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <cmath>
 #include <concepts>
@@ -18,11 +18,15 @@ struct Pose {
   Vec<Real, dim> translation = Vec<Real, dim>::Zero();
 
   /// A point of space in the tool's frame.
-  Vec<Real, dim> on_tool(const Vec<Real, dim>& x) const { return rotation.transpose() * (x - translation); }
+  Vec<Real, dim> on_tool(const Vec<Real, dim>& x) const { return transposed_product(rotation, minus(x, translation)); }
   /// A point of the tool's frame in space.
-  Vec<Real, dim> in_space(const Vec<Real, dim>& x) const { return rotation * x + translation; }
+  Vec<Real, dim> in_space(const Vec<Real, dim>& x) const {
+    Vec<Real, dim> turned = product(rotation, x);
+    add(turned, translation);
+    return turned;
+  }
 
-  bool finite() const { return rotation.allFinite() && translation.allFinite(); }
+  bool finite() const { return is_finite(rotation) && is_finite(translation); }
   /// Whether it keeps distances, to a millionth, and does not mirror.
   bool rigid() const {
     const Mat<Real, dim>& Q = rotation;
@@ -46,7 +50,8 @@ struct Pose {
 inline Pose<2> turned(Real angle, const Vec<Real, 2>& centre, const Vec<Real, 2>& translation = Vec<Real, 2>::Zero()) {
   Pose<2> pose;
   pose.rotation << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  pose.translation = centre - pose.rotation * centre + translation;
+  pose.translation = minus(centre, product(pose.rotation, centre));
+  add(pose.translation, translation);
   return pose;
 }
 

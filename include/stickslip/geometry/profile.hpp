@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/geometry/surface_point.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ class Profile {
  public:
   /// A chain that begins at `start` in the direction `heading`.
   Profile(const Vec<Real, 2>& start, const Vec<Real, 2>& heading) : end_(start), heading_(heading) {
-    if (!(heading.norm() > 0) || !heading.allFinite() || !start.allFinite())
+    if (!(heading.norm() > 0) || !is_finite(heading) || !is_finite(start))
       throw std::invalid_argument("profile: the start must be finite and the heading not zero");
     heading_.normalize();
   }
@@ -207,7 +208,7 @@ class Profile {
     at.place[0] = S(p.offset) + local_coordinate(p, x);
     at.gap = (radius - S(1 / std::abs(p.curvature))) * sign;
     if (value_of(radius) > 0)
-      at.normal = v * S(S(sign) / radius);
+      at.normal << v[0] * (S(sign) / radius), v[1] * (S(sign) / radius);
     else {
       const Vec<Real, 2> n = (position(p, 0.5 * (p.low + p.high)) - c).normalized() * sign;
       at.normal << S(n[0]), S(n[1]);
@@ -215,10 +216,14 @@ class Profile {
     }
     const Vec<S, 2> tangent(at.normal[1], -at.normal[0]);
     const S stretch = S(1) / (S(1) + at.gap * p.curvature);
-    at.grad_place = tangent * stretch;
-    at.hess_gap = tangent * tangent.transpose() * S(stretch * p.curvature);
-    at.hess_place[0] =
-        (tangent * at.normal.transpose() + at.normal * tangent.transpose()) * S(-(stretch * stretch * p.curvature));
+    for (int i = 0; i < 2; ++i) {
+      at.grad_place[i] = tangent[i] * stretch;
+      for (int j = 0; j < 2; ++j) {
+        at.hess_gap(i, j) = tangent[i] * tangent[j] * (stretch * p.curvature);
+        at.hess_place[0](i, j) =
+            -(tangent[i] * at.normal[j] + at.normal[i] * tangent[j]) * (stretch * stretch * p.curvature);
+      }
+    }
     return at;
   }
 
@@ -232,9 +237,11 @@ class Profile {
     at.gap = d * sign;
     at.place[0] = S(place);
     if (value_of(d) == 0) return at;
-    at.normal = v * S(S(sign) / d);
+    const S inverse = S(sign) / d;
+    at.normal << v[0] * inverse, v[1] * inverse;
     const Vec<S, 2> tangent(at.normal[1], -at.normal[0]);
-    at.hess_gap = tangent * tangent.transpose() * S(S(sign) / d);
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) at.hess_gap(i, j) = tangent[i] * tangent[j] * inverse;
     return at;
   }
 

@@ -28,7 +28,7 @@ class Revolution {
         origin_(origin),
         axis_(detail::unit(axis, "revolution: the axis")),
         aside_(detail::perpendicular(axis_)) {
-    if (!origin.allFinite()) throw std::invalid_argument("revolution: the origin must be finite");
+    if (!is_finite(origin)) throw std::invalid_argument("revolution: the origin must be finite");
   }
 
   bool empty() const { return meridian_.empty(); }
@@ -51,25 +51,24 @@ class Revolution {
       if (std::abs(at.normal[0] - turn) < 1e-9 && std::abs(turn) < 0.5) return from_tip(at, near, across, height);
       if (!(r > 1e-3 * near)) {
         const S radius = 1e-3 * near + detail::dot(aside_, across);
-        return turned<S>(meridian_.closest(Vec<S, 2>(radius, height)), aside_.template cast<S>(), S(0));
+        return turned<S>(meridian_.closest(Vec<S, 2>(radius, height)), detail::lifted<S>(aside_), S(0));
       }
     }
     const S radius = sqrt(detail::dot(across, across));
-    return turned<S>(meridian_.closest(Vec<S, 2>(radius, height)), across / radius, S(1) / radius);
+    return turned<S>(meridian_.closest(Vec<S, 2>(radius, height)),
+                     {across[0] / radius, across[1] / radius, across[2] / radius}, S(1) / radius);
   }
 
  private:
   // Eq. 4.7-4.8. `inverse` is 1 / radius.
   template <class S, class At>
   Distance<S, 3> turned(const At& at, const Vec<S, 3>& e_r, const S& inverse) const {
-    const Vec<S, 3> e_z = axis_.template cast<S>();
-    const Vec<S, 3> e_phi = detail::cross(e_z, e_r);
+    const Vec<S, 3> e_z = detail::lifted<S>(axis_), e_phi = detail::cross(e_z, e_r);
     Distance<S, 3> out;
     out.gap = at.gap;
-    out.normal = e_r * at.normal[0] + e_z * at.normal[1];
-    out.hess_gap = e_r * e_r.transpose() * at.hess_gap(0, 0) + e_z * e_z.transpose() * at.hess_gap(1, 1) +
-                   (e_r * e_z.transpose() + e_z * e_r.transpose()) * at.hess_gap(0, 1) +
-                   e_phi * e_phi.transpose() * S(at.normal[0] * inverse);
+    for (int i = 0; i < 3; ++i) out.normal[i] = e_r[i] * at.normal[0] + e_z[i] * at.normal[1];
+    out.hess_gap = detail::dyads<S>(e_r, e_z, at.hess_gap(0, 0), at.hess_gap(1, 1), at.hess_gap(0, 1));
+    add(out.hess_gap, product_transposed(e_phi, e_phi), S(at.normal[0] * inverse));
     return out;
   }
 
@@ -82,14 +81,17 @@ class Revolution {
     const Real h = at.hess_gap.trace();
     const Real n_z = std::copysign(std::sqrt(1 - (h * near) * (h * near)), at.normal[1]);
     const S rise = height - value_of(height);
-    const Vec<S, 3> e_z = axis_.template cast<S>();
-    const Vec<S, 3> w = across + e_z * rise;
-    const Vec<S, 3> y = w * S(h) + e_z * S(n_z);
-    const S length = sqrt(detail::dot(y, y));
+    Vec<S, 3> w, y;
+    for (int i = 0; i < 3; ++i) {
+      w[i] = across[i] + axis_[i] * rise;
+      y[i] = w[i] * h + axis_[i] * n_z;
+    }
+    const S length = sqrt(detail::dot(y, y)), curvature = h / length;
     Distance<S, 3> out;
     out.gap = at.gap + (h * (detail::dot(w, w) - near * near) + 2 * n_z * rise) / (length + 1);
-    out.normal = y / length;
-    out.hess_gap = (Mat<S, 3>::Identity() - out.normal * out.normal.transpose()) * S(h / length);
+    for (int i = 0; i < 3; ++i) out.normal[i] = y[i] / length;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) out.hess_gap(i, j) = (S(i == j ? 1 : 0) - out.normal[i] * out.normal[j]) * curvature;
     return out;
   }
 

@@ -67,8 +67,11 @@ SurfacePoint<S, dim> distance_to(const Tool& tool, const Vec<S, dim>& x) {
 /// Adds the place and its gradient: the closest point x - g N (theory.md, eq. 4.13).
 template <class S>
 void add_place(const Vec<S, 3>& x, SurfacePoint<S, 3>& at) {
-  at.place = x - at.normal * at.gap;
-  at.grad_place = Mat<S, 3>::Identity() - at.normal * at.normal.transpose() - at.hess_gap * at.gap;
+  for (int i = 0; i < 3; ++i) {
+    at.place[i] = x[i] - at.normal[i] * at.gap;
+    for (int j = 0; j < 3; ++j)
+      at.grad_place(i, j) = S(i == j ? 1 : 0) - at.normal[i] * at.normal[j] - at.hess_gap(i, j) * at.gap;
+  }
 }
 
 /// Adds the Hessians of the place. They take the derivative of the distance's Hessian, which dual numbers carry

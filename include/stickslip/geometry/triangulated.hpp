@@ -63,7 +63,7 @@ class Triangulated {
   template <class S>
   Distance<S, 3> distance(const Vec<S, 3>& x) const {
     const V plain = detail::plain(x);
-    if (!plain.allFinite()) return detail::nowhere<S>();
+    if (!is_finite(plain)) return detail::nowhere<S>();
     // A nearest box bounds the distance; then all boxes within it. (The tree's own walk from near to far sorts what it
     // has seen at every leaf: Boost 1.74.)
     namespace tree = boost::geometry::index;
@@ -85,7 +85,7 @@ class Triangulated {
   template <class S>
   Distance<S, 3> distance_by_all(const Vec<S, 3>& x) const {
     const V plain = detail::plain(x);
-    if (!plain.allFinite()) return detail::nowhere<S>();
+    if (!is_finite(plain)) return detail::nowhere<S>();
     Foot best;
     for (std::size_t i = 0; i < patches_.size(); ++i) consider(i, plain, best);
     return seen(best, x);
@@ -309,7 +309,7 @@ class Triangulated {
     const Local<S> at(patch, uv[0] - step[0], uv[1] - step[1]);
     Distance<S, 3> out;
     out.normal = at.normal();
-    out.gap = detail::dot(out.normal, Vec<S, 3>(x - at.p));
+    out.gap = detail::dot(out.normal, Vec<S, 3>(x[0] - at.p[0], x[1] - at.p[1], x[2] - at.p[2]));
     // First and second fundamental form; the gap's Hessian is -J I^-1 II (I - g II)^-1 J^T.
     const S E = detail::dot(at.p_u, at.p_u), F = detail::dot(at.p_u, at.p_v), G = detail::dot(at.p_v, at.p_v);
     const S L = detail::dot(at.p_uu, out.normal), M = detail::dot(at.p_uv, out.normal),
@@ -320,8 +320,7 @@ class Triangulated {
     const S scale = S(-1) / ((E * G - F * F) * (A * C - B * B));
     const S h11 = scale * (G * k11 - F * k21), h22 = scale * (E * k22 - F * k12),
             h12 = scale * 0.5 * (G * k12 - F * k22 + E * k21 - F * k11);
-    out.hess_gap = at.p_u * at.p_u.transpose() * h11 + at.p_v * at.p_v.transpose() * h22 +
-                   (at.p_u * at.p_v.transpose() + at.p_v * at.p_u.transpose()) * h12;
+    out.hess_gap = detail::dyads<S>(at.p_u, at.p_v, h11, h22, h12);
     return out;
   }
 
@@ -330,7 +329,7 @@ class Triangulated {
   static Distance<S, 3> from_rim(const Curve& q, bool edge, Real t, const Vec<S, 3>& x, Real sign, const V& out_of) {
     using std::sqrt;
     Distance<S, 3> out;
-    Vec<S, 3> p = q.a.template cast<S>();
+    Vec<S, 3> p = detail::lifted<S>(q.a);
     Mat<S, 3> along = Mat<S, 3>::Zero();
     if (edge) {
       const V tangent = q.slope(t), point = q.at(t);
@@ -344,21 +343,24 @@ class Triangulated {
       }
       // Over the stretch of a parallel curve: 1 - curvature . (x - p).
       const S square = detail::dot(slope, slope);
-      const Vec<S, 3> d = x - p;
+      const Vec<S, 3> d(x[0] - p[0], x[1] - p[1], x[2] - p[2]);
       const S stretch =
           S(1) - 2 * (detail::dot(q.c, d) - detail::dot(q.c, slope) * detail::dot(slope, d) / square) / square;
-      along = slope * slope.transpose() * S(S(1) / (square * stretch));
+      along = scaled<S>(product_transposed(slope, slope), S(1) / (square * stretch));
     }
-    const Vec<S, 3> d = x - p;
-    if (!(d.cwiseAbs().maxCoeff() > 0)) {
-      out.normal = out_of.template cast<S>();
+    const Vec<S, 3> d(x[0] - p[0], x[1] - p[1], x[2] - p[2]);
+    const S length = sqrt(detail::dot(d, d));
+    if (!(value_of(length) > 0)) {
+      out.normal = detail::lifted<S>(out_of);
       out.gap = detail::dot(out_of, d);
       return out;
     }
-    const S length = sqrt(detail::dot(d, d));
     out.gap = length * sign;
-    out.normal = d * S(S(sign) / length);
-    out.hess_gap = (Mat<S, 3>::Identity() - out.normal * out.normal.transpose() - along) * S(S(sign) / length);
+    const S curvature = S(sign) / length;
+    for (int i = 0; i < 3; ++i) out.normal[i] = d[i] * curvature;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        out.hess_gap(i, j) = (S(i == j ? 1 : 0) - out.normal[i] * out.normal[j] - along(i, j)) * curvature;
     return out;
   }
 

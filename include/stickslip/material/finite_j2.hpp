@@ -4,6 +4,7 @@
 #include <stickslip/material/log_strain.hpp>
 #include <stickslip/material/radial_return.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <cmath>
 
@@ -39,11 +40,11 @@ struct FiniteJ2 {
 
     const Vec<S, 3> e = log_strains(b);
     const S volumetric = e[0] + e[1] + e[2];
-    const Vec<S, 3> deviator = e - Vec<S, 3>::Constant(volumetric / S(3));
+    const Vec<S, 3> deviator(e[0] - volumetric / S(3), e[1] - volumetric / S(3), e[2] - volumetric / S(3));
 
     MaterialResponse<S, Shape, State<S, Shape>> out;
     out.state = old;
-    const RadialReturn<S> r = radial_return(hardening, S(deviator.squaredNorm()), old.plastic_strain, shear);
+    const RadialReturn<S> r = radial_return(hardening, contraction(deviator, deviator), old.plastic_strain, shear);
     out.cause = r.cause;
     if (r.cause != Cause::none) return out;
     if (r.flows) {
@@ -82,11 +83,10 @@ struct FiniteJ2 {
 
   /// Plastic work per reference volume spent up to the memory `state`, where the hardening offers its integral.
   template <class Shape>
-  Real plastic_work(const State<Real, Shape>& state) const
-    requires requires { hardening.work(state.plastic_strain); }
-  {
-    return hardening.work(state.plastic_strain);
+  Real plastic_work(const State<Real, Shape>& state) const requires requires {
+    hardening.work(state.plastic_strain);
   }
+  { return hardening.work(state.plastic_strain); }
 
   void validate() const { validate_j2(young, poisson, hardening); }
 };

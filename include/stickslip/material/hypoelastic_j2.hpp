@@ -4,6 +4,7 @@
 #include <stickslip/material/log_strain.hpp>
 #include <stickslip/material/radial_return.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <cmath>
 
@@ -51,16 +52,16 @@ struct HypoelasticJ2 {
     // Trial stress in the frame n_A: the old one has the components that it had in the frame m_A.
     T deviator = product(product(transpose(m), old.tau.full()), m);
     const S old_mean = trace(deviator) / S(3);
-    deviator.v /= S(2 * shear);
+    deviator.v = scaled(deviator.v, S(0.5 / shear));
     for (int A = 0; A < 3; ++A) deviator(A, A) += e[A] - volumetric / S(3) - old_mean / S(2 * shear);
 
     MaterialResponse<S, Shape, State<S, Shape>> out;
     out.state = old;
-    const RadialReturn<S> r = radial_return(hardening, S(deviator.v.squaredNorm()), old.plastic_strain, shear);
+    const RadialReturn<S> r = radial_return(hardening, contraction(deviator.v, deviator.v), old.plastic_strain, shear);
     out.cause = r.cause;
     if (r.cause != Cause::none) return out;
     T tau;
-    tau.v = deviator.v * S(2 * shear * r.ratio);
+    tau.v = scaled(deviator.v, S(2 * shear * r.ratio));
     for (int A = 0; A < 3; ++A) tau(A, A) += old_mean + S(bulk) * volumetric;
 
     const T F_inverse = inverse(F);
@@ -86,17 +87,18 @@ struct HypoelasticJ2 {
         spin(D, C) = -spin(C, D);
       }
       T change;
-      change.v = product(spin, tau).v - product(tau, spin).v + strain.v * S(2 * shear * r.ratio) -
-                 deviator.v * S(2 * shear * r.softening * deviator.v.dot(strain.v));
+      change.v = minus(product(spin, tau).v, product(tau, spin).v);
+      add(change.v, strain.v, S(2 * shear * r.ratio));
+      add(change.v, deviator.v, S(-2 * shear * r.softening * contraction(deviator.v, strain.v)));
       if (C == D)
         for (int A = 0; A < 3; ++A) change(A, A) += S(bulk) - S(2 * shear / 3) * r.ratio;
       for (int A = 0; A < 3; ++A)
         if (Shape::couples(A, C)) change(A, C) -= tau(A, D);
-      moduli.col(c) = change.v;
+      for (int a = 0; a < Shape::size; ++a) moduli(a, c) = change.v[a];
     }
     const Moduli<S, Shape> Q = to_principal_frame(n, product(F_inverse, n));
-    out.P.v = Q.transpose() * tau.v;
-    out.dP_dF = Q.transpose() * moduli * Q;
+    out.P.v = transposed_product(Q, tau.v);
+    out.dP_dF = transposed_product(Q, product(moduli, Q));
     return out;
   }
 
@@ -106,7 +108,7 @@ struct HypoelasticJ2 {
     const auto [bulk, shear] = ElasticModuli::from(young, poisson);
     const Tensor<S, Shape> tau = state.tau.full();
     const S mean = trace(tau) / S(3);
-    return (tau.v.squaredNorm() - S(3) * mean * mean) / S(4 * shear) + mean * mean / S(2 * bulk);
+    return (contraction(tau.v, tau.v) - S(3) * mean * mean) / S(4 * shear) + mean * mean / S(2 * bulk);
   }
 
   /// Plastic work per reference volume spent up to the memory `state`, where the hardening offers its integral.

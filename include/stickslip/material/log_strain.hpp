@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/base/outcome.hpp>
+#include <stickslip/tensor/products.hpp>
 #include <stickslip/tensor/spectral.hpp>
 
 #include <cmath>
@@ -38,7 +39,7 @@ template <class S, class Shape>
 S hencky_energy(const Spectral<S, Shape>& b, Real bulk, Real shear) {
   const Vec<S, 3> e = log_strains(b);
   const S volumetric = e[0] + e[1] + e[2];
-  return S(0.5 * bulk - shear / 3) * volumetric * volumetric + S(shear) * e.squaredNorm();
+  return S(0.5 * bulk - shear / 3) * volumetric * volumetric + S(shear) * contraction(e, e);
 }
 
 /// Stress of an isotropic law in the frame of its principal logarithmic strains e_A.
@@ -83,15 +84,20 @@ void from_principal(const Spectral<S, Shape>& principal, const Tensor<S, Shape>&
 
   // a: d(tau) - tau dl^T by dl. Principal components couple among themselves, each shear pair with its mirror.
   Moduli<S, Shape> aQ = Moduli<S, Shape>::Zero();
+  const auto add_row = [&](int C, int D, const S& factor, int to) {
+    for (int f = 0; f < size; ++f) aQ(to, f) += factor * Q(Shape::at(C, D), f);
+  };
   for (int A = 0; A < 3; ++A)
     for (int B = 0; B < 3; ++B)
-      aQ.row(Shape::at(A, A)) += Q.row(Shape::at(B, B)) * S(stress.dtau_de(A, B) - (A == B ? stress.tau[A] : S(0)));
+      add_row(B, B, S(stress.dtau_de(A, B) - (A == B ? stress.tau[A] : S(0))), Shape::at(A, A));
   for (int a = 0; a < size; ++a) {
     const auto [A, B] = Shape::pairs[std::size_t(a)];
     if (A == B) continue;
     const S t = stress.secant * S(0.5) * log_difference(b[A], b[B]);  // (tau_A - tau_B) / (b_A - b_B)
-    aQ.row(a) += Q.row(a) * S(t * b[B]) + Q.row(Shape::at(B, A)) * S(t * b[A] - stress.tau[A]);
+    add_row(A, B, t * b[B], a);
+    add_row(B, A, t * b[A] - stress.tau[A], a);
   }
+  // Eigen's, not a loop: in space it saves a twentieth of the element.
   out.dP_dF.noalias() = Q.transpose().lazyProduct(aQ);
 }
 

@@ -3,6 +3,7 @@
 
 #include <stickslip/material/log_strain.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/tensor/products.hpp>
 
 namespace stickslip {
 
@@ -26,8 +27,9 @@ struct NeoHookean {
     const Tensor<S, Shape> F_inverse = inverse(F);
     const S tension = S(lame) * log(determinant(F)) - S(shear);  // factor of F^-T in P
     MaterialResponse<S, Shape, State<S, Shape>> out;
-    out.P.v = F.v * S(shear) + transpose(F_inverse).v * tension;
-    out.dP_dF = Moduli<S, Shape>::Identity() * S(shear);
+    out.P.v = scaled(transpose(F_inverse).v, tension);
+    add(out.P.v, F.v, S(shear));
+    out.dP_dF = isotropic<Shape::size>(S(shear));
     for (int a = 0; a < Shape::size; ++a)
       for (int b = 0; b < Shape::size; ++b) {
         const auto [i, J] = Shape::pairs[std::size_t(a)];

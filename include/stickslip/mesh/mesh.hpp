@@ -2,7 +2,7 @@
 #pragma once
 
 #include <stickslip/base/archive.hpp>
-#include <stickslip/base/types.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
 #include <array>
@@ -98,7 +98,7 @@ struct Rectangle {
 inline Mesh<2, 4> rectangle(const Rectangle& r) {
   if (r.cells[0] < 1 || r.cells[1] < 1)
     throw std::invalid_argument("mesh rectangle: needs at least one cell in each direction");
-  if (!(r.size[0] > 0 && r.size[1] > 0) || !r.size.allFinite() || !r.origin.allFinite())
+  if (!(r.size[0] > 0 && r.size[1] > 0) || !is_finite(r.size) || !is_finite(r.origin))
     throw std::invalid_argument("mesh rectangle: the size must be positive and finite");
   const Index nx = r.cells[0], ny = r.cells[1];
   const bool y_first = ny <= nx;
@@ -141,7 +141,7 @@ struct Box {
 inline Mesh<3, 8> box(const Box& b) {
   if (b.cells[0] < 1 || b.cells[1] < 1 || b.cells[2] < 1)
     throw std::invalid_argument("mesh box: needs at least one cell in each direction");
-  if (!(b.size.minCoeff() > 0) || !b.size.allFinite() || !b.origin.allFinite())
+  if (!(b.size[0] > 0 && b.size[1] > 0 && b.size[2] > 0) || !is_finite(b.size) || !is_finite(b.origin))
     throw std::invalid_argument("mesh box: the size must be positive and finite");
   using Place = std::array<Index, 3>;
   std::array<std::size_t, 3> order{2, 1, 0};  // directions from the innermost to the outermost

@@ -6,6 +6,7 @@
 #include <stickslip/base/role.hpp>
 #include <stickslip/policy/kinematics.hpp>
 #include <stickslip/policy/stiff_relation.hpp>
+#include <stickslip/tensor/products.hpp>
 
 #include <array>
 #include <concepts>
@@ -33,7 +34,7 @@ PointGeometry<Kinematics, Cell::nodes> point_geometry(const Kinematics& kinemati
   using Shape = typename Kinematics::Shape;
   const Mat<Real, Cell::nodes, dim> dN_dxi = Cell::gradient(xi);
   const Vec<Real, Cell::nodes> N = Cell::shape(xi);
-  const Mat<Real, dim> block = X.transpose() * dN_dxi;
+  const Mat<Real, dim> block = transposed_product(X, dN_dxi);
   auto jacobian = Tensor<Real, Shape>::identity();  // in the plane, the normal stays as it is
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j) jacobian(i, j) = block(i, j);
@@ -42,10 +43,10 @@ PointGeometry<Kinematics, Cell::nodes> point_geometry(const Kinematics& kinemati
   Mat<Real, dim> inverse;
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j) inverse(i, j) = adjugate_of_jacobian(i, j) / det;
-  const Vec<Real, dim> place = X.transpose() * N;
+  const Vec<Real, dim> place = transposed_product(X, N);
   PointGeometry<Kinematics, Cell::nodes> point;
-  point.dN_dX = dN_dxi * inverse;
-  if constexpr (Kinematics::hoop) point.N_over_R = N / place[0];
+  point.dN_dX = product(dN_dxi, inverse);
+  if constexpr (Kinematics::hoop) point.N_over_R = scaled(N, 1 / place[0]);
   point.weight = quadrature_weight * det * kinematics.measure(place);
   return point;
 }
