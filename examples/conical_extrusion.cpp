@@ -60,21 +60,20 @@ int extrude(const examples::Options& options) {
   }};
   billet.hold("left", 0).drive("bottom", 1, [](Real t) { return travel * t; });
 
-  return examples::run<Model, examples::Books::kept>(
-      options, billet,
-      {.labels = {.name = "conical_extrusion",
-                  .kinematics = "axisymmetric",
-                  .material = "finite J2, linear hardening",
-                  .travel = "ram travel",
-                  .force = "ram force",
-                  .view = "set xrange [0:120]\nset yrange [0:620]"},
-       .march = {.end = 1,
-                 .initial = 0.1 / travel,
-                 .largest = 1.6 / travel,
-                 .stops = {44.5 / travel, 89 / travel, 135 / travel}},
-       .travel_mm = [](const Problem<Model>& b) { return travel * b.time(); },
-       .force_N = [](const Problem<Model>& b) { return b.reaction("bottom", 1); },
-       .reach_mm = 450});
+  return examples::run<Model, examples::Books::kept>(options, billet,
+                                                     {.labels = {.name = "conical_extrusion",
+                                                                 .kinematics = "axisymmetric",
+                                                                 .material = "finite J2, linear hardening",
+                                                                 .travel = "ram travel",
+                                                                 .force = "ram force",
+                                                                 .view = "set xrange [0:120]\nset yrange [0:620]"},
+                                                      .march = {.end = 1,
+                                                                .initial = 0.1 / travel,
+                                                                .largest = 1.6 / travel,
+                                                                .stops = {44.5 / travel, 89 / travel, 135 / travel}},
+                                                      .travel_mm = [&] { return travel * billet.time(); },
+                                                      .force_N = [&] { return billet.reaction("bottom", 1); },
+                                                      .reach_mm = 450});
 }
 
 int main(int argc, char** argv) {

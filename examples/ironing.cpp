@@ -62,8 +62,8 @@ int iron(const examples::Options& options) {
                                           .force = "force against the way",
                                           .view = "set xrange [-1:21]\nset yrange [-1:8]"},
                                .march = march,
-                               .travel_mm = [=](const Problem<Model>& p) { return p.time() * (way + depth); },
-                               .force_N = [](const Problem<Model>& p) { return -2 * p.contact_force("cylinder")[0]; },
+                               .travel_mm = [&] { return block.time() * (way + depth); },
+                               .force_N = [&] { return -2 * block.contact_force("cylinder")[0]; },
                                .reach_mm = 10,
                                .section = "bottom"});
 }

@@ -65,8 +65,8 @@ int punch(const examples::Options& options) {
                                          .initial = 0.1 / travel,
                                          .largest = 0.8 / travel,
                                          .stops = {10 / travel, 20 / travel, 30 / travel}},
-                               .travel_mm = [travel](const Problem<Model>& p) { return travel * p.time(); },
-                               .force_N = [](const Problem<Model>& p) { return p.contact_force("punch")[1]; },
+                               .travel_mm = [&] { return travel * sheet.time(); },
+                               .force_N = [&] { return sheet.contact_force("punch")[1]; },
                                .reach_mm = 60});
 }
 

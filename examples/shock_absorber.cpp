@@ -71,9 +71,9 @@ int invert(const examples::Options& options) {
                  .largest = 0.5 / speed,
                  .wanted_iterations = 6,
                  .stops = {10 / speed, 20 / speed, 30 / speed, 40 / speed}},
-       .travel_mm = [](const Problem<Model>& a) { return speed * a.time(); },
-       .force_N = [](const Problem<Model>& a) { return -a.reaction("top", 1); },
-       .self_penetration = [](const Problem<Model>& a) { return examples::passes_through_itself(a, "surface"); },
+       .travel_mm = [&] { return speed * absorber.time(); },
+       .force_N = [&] { return -absorber.reaction("top", 1); },
+       .self_penetration = [&] { return examples::passes_through_itself(tube, absorber.displacement(), "surface"); },
        .reach_mm = 75});
 }
 

@@ -47,23 +47,28 @@ inline constexpr Choices all_solvers{Named<ChosenEither>{"banded"},
 enum class Books { none, kept };
 
 /// What is particular to a benchmark.
-template <class Model>
 struct Benchmark {
   Labels labels;
-  stickslip::MarchOptions march{};                                           ///< end, first and largest step
-  std::function<double(const stickslip::Problem<Model>&)> travel_mm;         ///< abscissa of the history
-  std::function<double(const stickslip::Problem<Model>&)> force_N;           ///< ordinate of the history
-  std::function<bool(const stickslip::Problem<Model>&)> self_penetration{};  ///< whether the body passes through itself
-  double reach_mm = 100;                                                     ///< how far the tools are drawn
-  std::string section{};  ///< of a mesh in space, the side that is drawn: see patches()
+  stickslip::MarchOptions march{};           ///< end, first and largest step
+  std::function<double()> travel_mm;         ///< abscissa of the history, now
+  std::function<double()> force_N;           ///< ordinate of the history, now
+  std::function<bool()> self_penetration{};  ///< whether the body passes through itself
+  double reach_mm = 100;                     ///< how far the tools are drawn
+  std::string section{};                     ///< of a mesh in space, the side that is drawn: see patches()
 };
 
+/// The books, where they are kept.
+template <class Model, Books books>
+using LedgerOf =
+    stickslip::Only<books == Books::kept, std::optional<stickslip::verify::EnergyLedger<stickslip::MechanicsOf<Model>>>,
+                    Benchmark>;
+
 /// All that a run depends on, for its restart file.
-template <class Model>
+template <class Model, Books books>
 struct RunState {
   const Options& options;
   stickslip::March<Model>& march;
-  std::optional<stickslip::verify::EnergyLedger<stickslip::MechanicsOf<Model>>>& ledger;
+  LedgerOf<Model, books>& ledger;
   std::optional<stickslip::io::VtuSeries>& series;
   Record& record;
   double &next_frame, &last_frame;
@@ -71,7 +76,7 @@ struct RunState {
   void serialize(stickslip::Archive& archive) {
     require_same(archive, options);
     march.serialize(archive);
-    if (ledger) ledger->serialize(archive);
+    if constexpr (books == Books::kept) ledger->serialize(archive);
     if (series) series->serialize(archive);
     record.serialize(archive);
     archive("series, next", next_frame);
@@ -82,7 +87,7 @@ struct RunState {
 /// Marches the problem to its end, keeps about 40 states as VTU and the deformed mesh at the march's stops, and writes
 /// what the options ask for.
 template <class Model, Books books = Books::none>
-int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Model> benchmark) {
+int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark benchmark) {
   using namespace stickslip;
   benchmark.march.steps = options.steps;
   benchmark.march.tolerance = options.tolerance;
@@ -93,8 +98,8 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   r.elements = problem.body().mesh().cell_count();
   const auto note = [&] {
     r.time_s.push_back(problem.time());
-    r.travel_mm.push_back(benchmark.travel_mm(problem));
-    r.force_N.push_back(benchmark.force_N(problem));
+    r.travel_mm.push_back(benchmark.travel_mm());
+    r.force_N.push_back(benchmark.force_N());
   };
   const bool restarted = !options.restart.empty();
   if (!restarted) note();
@@ -106,6 +111,9 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
     series->write(problem);
     last_frame = problem.time();
   };
+  const auto write_shot = [&](const std::string& name) {
+    write_mesh_data(options.output / name, problem.body(), problem.displacement(), benchmark.section);
+  };
   if (files) {
     series.emplace(options.output, benchmark.labels.name);
     if (!restarted) keep_state();
@@ -114,9 +122,9 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   Clock clock;
   clock.start();
   auto march = problem.march(benchmark.march);
-  std::optional<verify::EnergyLedger<MechanicsOf<Model>>> ledger;
+  LedgerOf<Model, books> ledger;
   if constexpr (books == Books::kept) ledger.emplace(problem);
-  RunState<Model> state{options, march, ledger, series, r, next_frame, last_frame};
+  RunState<Model, books> state{options, march, ledger, series, r, next_frame, last_frame};
   if (restarted) read_restart(options).restore(state);
   const double seconds_before = r.seconds;
   const Checkpoints checkpoints(options);
@@ -130,12 +138,11 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
     r.steps.push_back(step);
     note();
     if constexpr (books == Books::kept) ledger->update(step);
-    if (benchmark.self_penetration && !r.self_penetration_mm && benchmark.self_penetration(problem))
+    if (benchmark.self_penetration && !r.self_penetration_mm && benchmark.self_penetration())
       r.self_penetration_mm = r.travel_mm.back();
     if (files)
       for (const double stop : benchmark.march.stops)
-        if (std::abs(step.time - stop) < 1e-9 * benchmark.march.end)
-          write_mesh_data(options.output / shot_name(r.travel_mm.back()), problem, benchmark.section);
+        if (std::abs(step.time - stop) < 1e-9 * benchmark.march.end) write_shot(shot_name(r.travel_mm.back()));
     show_progress(options, r, step.time / benchmark.march.end);
     if (files && step.time >= next_frame) {
       keep_state();
@@ -161,7 +168,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark<Mo
   r.seconds = seconds_before + clock.seconds();
   if (files) {
     if (last_frame < problem.time()) keep_state();
-    write_mesh_data(options.output / "mesh.dat", problem, benchmark.section);
+    write_shot("mesh.dat");
     write_tool_data(options.output / "tools.dat", problem, benchmark.reach_mm);
   }
   return conclude(options, r);

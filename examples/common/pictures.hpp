@@ -2,6 +2,7 @@
 // Pictures by gnuplot, each as PNG and SVG, with the data and the script beside them.
 #pragma once
 
+#include <stickslip/base/nodal.hpp>
 #include <stickslip/problem.hpp>
 
 #include <algorithm>
@@ -22,16 +23,15 @@ void draw(const std::filesystem::path& directory, const std::string& name, const
           int height = 600);
 
 /// Mean plastic strain of every cell; zeros where the material has none.
-template <class Model>
-std::vector<double> plastic_strains(const stickslip::Scene<Model>& problem) {
-  const auto cells = static_cast<std::size_t>(problem.body().mesh().cell_count());
+template <class Body>
+std::vector<double> plastic_strains(const Body& body, const stickslip::Field& u) {
+  const auto cells = static_cast<std::size_t>(body.mesh().cell_count());
   std::vector<double> value(cells, 0.0), volume(cells, 0.0);
-  if constexpr (requires(typename stickslip::Scene<Model>::BodyType::State s) { s.plastic_strain; })
-    problem.body().visit_points(problem.displacement(),
-                                [&](stickslip::Index e, int, const auto&, const auto& state, double weight) {
-                                  value[static_cast<std::size_t>(e)] += weight * state.plastic_strain;
-                                  volume[static_cast<std::size_t>(e)] += weight;
-                                });
+  if constexpr (requires(typename Body::State s) { s.plastic_strain; })
+    body.visit_points(u, [&](stickslip::Index e, int, const auto&, const auto& state, double weight) {
+      value[static_cast<std::size_t>(e)] += weight * state.plastic_strain;
+      volume[static_cast<std::size_t>(e)] += weight;
+    });
   for (std::size_t e = 0; e < cells; ++e)
     if (volume[e] > 0) value[e] /= volume[e];
   return value;
@@ -63,21 +63,22 @@ auto patches(const MeshType& mesh, [[maybe_unused]] const std::string& section) 
   return found;
 }
 
-/// Data of the deformed mesh, a gnuplot pm3d patch each: x, y, plastic strain (mean over the points). Of a mesh in
-/// space its `section`, see patches().
-template <class Model>
-void write_mesh_data(const std::filesystem::path& path, const stickslip::Scene<Model>& problem,
-                     const std::string& section = "") {
-  constexpr int dim = Model::Kinematics::dim;
-  const auto& mesh = problem.body().mesh();
-  const std::vector<double> value = plastic_strains(problem);
+/// Data of the body's mesh deformed by u, a gnuplot pm3d patch each: x, y, plastic strain (mean over the points). Of a
+/// mesh in space its `section`, see patches().
+template <class Body>
+void write_mesh_data(const std::filesystem::path& path, const Body& body, const stickslip::Field& u,
+                     const std::string& section) {
+  constexpr int dim = Body::dim;
+  const auto& mesh = body.mesh();
+  const std::vector<double> value = plastic_strains(body, u);
   std::ofstream out(path);
   out << "# x y plastic_strain x_at_start y_at_start: one patch a cell\n";
   for (const auto& [nodes, cell] : patches(mesh, section)) {
     for (const std::size_t a : {0u, 1u, 3u, 2u}) {
-      const stickslip::Vec<double, dim> start = mesh.nodes[static_cast<std::size_t>(nodes[a])],
-                                        x = start + problem.displacement(nodes[a]);
-      out << x[0] << ' ' << x[dim - 1] << ' ' << value[cell] << ' ' << start[0] << ' ' << start[dim - 1] << '\n';
+      const auto& start = mesh.nodes[static_cast<std::size_t>(nodes[a])];
+      const auto moved = stickslip::at_node<dim>(u, nodes[a]);
+      out << start[0] + moved[0] << ' ' << start[dim - 1] + moved[dim - 1] << ' ' << value[cell] << ' ' << start[0]
+          << ' ' << start[dim - 1] << '\n';
       if (a == 1) out << '\n';
     }
     out << "\n\n";

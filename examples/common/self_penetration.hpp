@@ -2,7 +2,8 @@
 // Whether a body passes through itself: there is no self-contact yet, so a benchmark says when it would be needed.
 #pragma once
 
-#include <stickslip/problem.hpp>
+#include <stickslip/base/nodal.hpp>
+#include <stickslip/mesh/mesh.hpp>
 
 #include <algorithm>
 #include <string>
@@ -10,14 +11,13 @@
 
 namespace examples {
 
-/// True when a node of the side lies inside a cell that it does not belong to, in the present configuration.
-template <class Model>
-bool passes_through_itself(const stickslip::Problem<Model>& problem, const std::string& side) {
+/// True when a node of the side lies inside a cell that it does not belong to, at the nodal displacements u.
+inline bool passes_through_itself(const stickslip::Mesh<2, 4>& mesh, const stickslip::Field& u,
+                                  const std::string& side) {
   using Point = stickslip::Vec<double, 2>;
-  const auto& mesh = problem.body().mesh();
   std::vector<Point> x(mesh.nodes.size());
   for (std::size_t n = 0; n < x.size(); ++n)
-    x[n] = mesh.nodes[n] + problem.displacement(static_cast<stickslip::Index>(n));
+    x[n] = mesh.nodes[n] + stickslip::at_node<2>(u, static_cast<stickslip::Index>(n));
   for (const auto& cell : mesh.cells) {
     Point low = x[static_cast<std::size_t>(cell[0])], high = low;
     for (const auto n : cell) {

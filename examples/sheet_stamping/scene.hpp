@@ -66,8 +66,8 @@ int stamp(const examples::Options& options) {
                                           .force = "punch force",
                                           .view = "set xrange [0:75]\nset yrange [-50:20]"},
                                .march = march,
-                               .travel_mm = [travel](const Problem<Model>& p) { return travel * p.time(); },
-                               .force_N = [](const Problem<Model>& p) { return 4 * p.contact_force("punch")[2]; },
+                               .travel_mm = [&] { return travel * sheet.time(); },
+                               .force_N = [&] { return 4 * sheet.contact_force("punch")[2]; },
                                .reach_mm = 60,
                                .section = "y=0"});
 }

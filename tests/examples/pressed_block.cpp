@@ -56,11 +56,11 @@ int main(int argc, char** argv) {
                     .view = ""},
          .march = {.end = 1, .initial = 0.002, .largest = 0.004, .stops = {0.3}},
          .travel_mm =
-             [](const auto& p) {
-               std::fprintf(stderr, "%.17g\n", p.time());
-               return p.time();
+             [&] {
+               std::fprintf(stderr, "%.17g\n", block.time());
+               return block.time();
              },
-         .force_N = [](const auto& p) { return p.contact_force("top")[1]; },
+         .force_N = [&] { return block.contact_force("top")[1]; },
          .reach_mm = 2});
   });
 }
