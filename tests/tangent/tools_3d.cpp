@@ -92,7 +92,7 @@ TEST_CASE("a meridian of several pieces is its picture in the plane") {
 
 TEST_CASE("an extruded profile") {
   const auto bead = rigid::path({-3, 0}, {1, 0}).straight(2).left(0.4, 0.7).straight(1).endless();
-  const V3 e = rigid::detail::perpendicular(a), f = rigid::detail::cross(a, e);
+  const V3 e = rigid::detail::perpendicular(a), f = cross(a, e);
   const rigid::Extruded tool(bead, centre, 2 * e, 3 * f);
   check_tool(tool, centre - 0.88 * e + 0.08 * f, 0.05,
              [&](const V3& x) { return bead.closest(Vec<Real, 2>((x - centre).dot(e), (x - centre).dot(f))).gap; });
@@ -101,8 +101,7 @@ TEST_CASE("an extruded profile") {
 TEST_CASE("on the axis and near it") {
   // Tips above and below: a sphere by its meridian, a hemispherical punch whose meridian ends on the axis, a plane, an
   // apex seen from outside.
-  const V3 e =
-      (rigid::detail::perpendicular(a) + 0.3 * rigid::detail::cross(a, rigid::detail::perpendicular(a))).normalized();
+  const V3 e = (rigid::detail::perpendicular(a) + 0.3 * cross(a, rigid::detail::perpendicular(a))).normalized();
   const rigid::Revolution punch(rigid::path({0, -2}, {1, 0}).left(2, pi / 2).straight(2), centre, axis);
   const rigid::Revolution ball(rigid::disc({0, 0}, 2), centre, axis), plane = rigid::plane(centre, axis),
                                                                       cone = rigid::cone(centre, axis, 0.5);

@@ -141,7 +141,7 @@ TEST_CASE("across the edges of a smooth surface gap and normal jump with the sec
         for (const Real share : {0.0, 0.1, 0.5, 0.7})
           for (const Real g : {-0.05, -1e-4, 0.0, 0.05}) {
             const V3 x = (a + share * (b - a)).normalized() * (1 + g);
-            const V3 across = rigid::detail::cross(a, b).normalized();
+            const V3 across = cross(a, b).normalized();
             const auto left = ball.distance(V3(x + 1e-9 * across)), right = ball.distance(V3(x - 1e-9 * across));
             jump[0] = std::max(jump[0], std::abs(left.gap - right.gap));
             jump[1] = std::max(jump[1], (left.normal - right.normal).norm());

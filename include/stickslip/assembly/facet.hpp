@@ -36,9 +36,6 @@ Real facet_share(const Mesh<3, nodes_per_cell>& mesh, const Kinematics& kinemati
   const auto first = static_cast<std::size_t>(found - facet.begin());
   std::array<V, 4> x;
   for (std::size_t a = 0; a < 4; ++a) x[a] = mesh.nodes[static_cast<std::size_t>(facet[(first + a) % 4])];
-  const auto cross = [](const V& a, const V& b) {
-    return V(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
-  };
   // x = centre + xi along + eta across + xi eta twist, the node at (-1, -1).
   V along, across, twist, centre;
   for (int i = 0; i < 3; ++i) {
@@ -51,7 +48,7 @@ Real facet_share(const Mesh<3, nodes_per_cell>& mesh, const Kinematics& kinemati
   const V normal = cross(along, across);
   V change = cross(along, twist);
   add(change, cross(twist, across));
-  const Real area = std::sqrt(contraction(normal, normal));
+  const Real area = normal.norm();
   return (area - contraction(normal, change) / (3 * area)) * kinematics.measure(centre);
 }
 

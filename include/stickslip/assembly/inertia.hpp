@@ -112,11 +112,9 @@ class InertiaForcesOf {
   /// over the nodes [length]. Call it after `apply`, before `commit`.
   Real local_error() const {
     Real largest = 0;
-    for (Index n = 0; n < body_.mesh().node_count(); ++n) {
-      const Vec<Real, dim> change = minus(at_node<dim>(trial_acceleration_, n), at_node<dim>(acceleration_, n));
-      largest = std::max(largest, contraction(change, change));
-    }
-    return std::abs(policy_.scheme.beta - Real(1) / 6) * dt_ * dt_ * std::sqrt(largest);
+    for (Index n = 0; n < body_.mesh().node_count(); ++n)
+      largest = std::max(largest, minus(at_node<dim>(trial_acceleration_, n), at_node<dim>(acceleration_, n)).norm());
+    return std::abs(policy_.scheme.beta - Real(1) / 6) * dt_ * dt_ * largest;
   }
 
   /// The converged state.

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -24,10 +23,7 @@ class RigidMotions {
 
   RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Field& u) : nodes_(nodes), u_(u) {
     for (const auto& X : nodes) add(centre_, X, 1 / Real(nodes.size()));
-    for (const auto& X : nodes) {
-      const Vec<Real, dim> from_centre = minus(X, centre_);
-      extent_ = std::max(extent_, std::sqrt(contraction(from_centre, from_centre)));
-    }
+    for (const auto& X : nodes) extent_ = std::max(extent_, minus(X, centre_).norm());
   }
 
   /// Largest distance of a node from the centre [length].

@@ -63,7 +63,7 @@ class Revolution {
   // Eq. 4.7-4.8. `inverse` is 1 / radius.
   template <class S, class At>
   Distance<S, 3> turned(const At& at, const Vec<S, 3>& e_r, const S& inverse) const {
-    const Vec<S, 3> e_z = detail::lifted<S>(axis_), e_phi = detail::cross(e_z, e_r);
+    const Vec<S, 3> e_z = detail::lifted<S>(axis_), e_phi = cross(e_z, e_r);
     Distance<S, 3> out;
     out.gap = at.gap;
     for (int i = 0; i < 3; ++i) out.normal[i] = e_r[i] * at.normal[0] + e_z[i] * at.normal[1];

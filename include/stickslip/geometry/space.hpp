@@ -17,11 +17,6 @@ S dot(const Vec<A, 3>& a, const Vec<S, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-template <class S>
-Vec<S, 3> cross(const Vec<S, 3>& a, const Vec<S, 3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// v on the scalar S.
 template <class S>
 Vec<S, 3> lifted(const Vec<Real, 3>& v) {
@@ -58,7 +53,7 @@ inline Vec<Real, 3> perpendicular(const Vec<Real, 3>& a) {
     if (std::abs(a[i]) < std::abs(a[least])) least = i;
   Vec<Real, 3> e = scaled(a, -a[least]);
   e[least] += 1;
-  return unit(e, "");
+  return e.normalized();
 }
 
 /// The answer to a point that is not a number: its gap is not one either.

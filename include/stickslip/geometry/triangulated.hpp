@@ -131,7 +131,7 @@ class Triangulated {
     }
     Vec<S, 3> normal() const {
       using std::sqrt;
-      const Vec<S, 3> n = detail::cross(p_u, p_v);
+      const Vec<S, 3> n = cross(p_u, p_v);
       return n / S(sqrt(detail::dot(n, n)));
     }
   };
@@ -386,7 +386,7 @@ class Triangulated {
       }
       const V a = vertex(s, i, 0), e = vertex(s, i, 1) - a, f = vertex(s, i, 2) - a;
       const Real longest = std::max({e.squaredNorm(), f.squaredNorm(), (e - f).squaredNorm()});
-      if (!(detail::cross(e, f).norm() > 1e-12 * longest))
+      if (!(cross(e, f).norm() > 1e-12 * longest))
         throw std::invalid_argument(name(i) + " is degenerate: it has no area");
     }
   }
@@ -397,14 +397,12 @@ class Triangulated {
   static const V& vertex(const Triangles& s, std::size_t i, std::size_t k) { return s.vertices[number(s, i, k)]; }
   static V facet_normal(const Triangles& s, std::size_t i) {
     const V a = vertex(s, i, 0);
-    return detail::cross(V(vertex(s, i, 1) - a), V(vertex(s, i, 2) - a)).normalized();
+    return cross(V(vertex(s, i, 1) - a), V(vertex(s, i, 2) - a)).normalized();
   }
   // Max's weight of a facet with the edges a and b at a vertex: of vertices on a sphere the mean is the sphere's
   // normal.
-  static Real facet_weight(const V& a, const V& b) {
-    return detail::cross(a, b).norm() / (a.squaredNorm() * b.squaredNorm());
-  }
-  static Real angle(const V& a, const V& b) { return std::atan2(detail::cross(a, b).norm(), a.dot(b)); }
+  static Real facet_weight(const V& a, const V& b) { return cross(a, b).norm() / (a.squaredNorm() * b.squaredNorm()); }
+  static Real angle(const V& a, const V& b) { return std::atan2(cross(a, b).norm(), a.dot(b)); }
 
   void build(const Triangles& s, Real crease) {
     const std::size_t count = s.corners.size();
@@ -525,10 +523,10 @@ class Triangulated {
       again = false;
       for (std::size_t i = 0; i < patches_.size(); ++i) {
         Patch& patch = patches_[i];
-        const Real area = detail::cross(V(patch.x[1] - patch.x[0]), V(patch.x[2] - patch.x[0])).norm();
+        const Real area = cross(V(patch.x[1] - patch.x[0]), V(patch.x[2] - patch.x[0])).norm();
         const bool sound = std::all_of(places.begin(), places.end(), [&](const V2& uv) {
           const Local<Real> at(patch, uv[0], uv[1]);
-          return detail::cross(at.p_u, at.p_v).dot(facet[i]) > 0.1 * area;
+          return cross(at.p_u, at.p_v).dot(facet[i]) > 0.1 * area;
         });
         if (sound) continue;
         again = true;
@@ -560,14 +558,14 @@ class Triangulated {
   // the tool many boxes are as near as the closest patch, and this costs less than a foot.
   static Real distance_at_least(const Patch& patch, const V& x) {
     const V e = patch.x[1] - patch.x[0], f = patch.x[2] - patch.x[0], d = x - patch.x[0];
-    const V n = detail::cross(e, f);
+    const V n = cross(e, f);
     const Real bulge =
         std::sqrt(std::max({patch.c[0].squaredNorm(), patch.c[1].squaredNorm(), patch.c[2].squaredNorm()})) / 3;
     Real square = std::numeric_limits<Real>::infinity();
     bool above = true;
     for (std::size_t k = 0; k < 3; ++k) {
       const V from = x - patch.x[k], edge = patch.x[(k + 1) % 3] - patch.x[k];
-      if (detail::cross(edge, from).dot(n) >= 0) continue;
+      if (cross(edge, from).dot(n) >= 0) continue;
       above = false;
       const Real t = std::clamp(from.dot(edge) / edge.squaredNorm(), Real(0), Real(1));
       square = std::min(square, (from - t * edge).squaredNorm());

@@ -88,6 +88,12 @@ Mat<S, rows, columns> product_transposed(const Mat<S, rows, inner>& a, const Mat
   return r;
 }
 
+/// a x b.
+template <class S>
+Vec<S, 3> cross(const Vec<S, 3>& a, const Vec<S, 3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 /// Sum of the products of the components: a . b of vectors, a : b of tensors.
 template <class S, int rows, int columns>
 S contraction(const Mat<S, rows, columns>& a, const Mat<S, rows, columns>& b) {
