@@ -80,6 +80,8 @@ struct [[nodiscard]] Outcome {
   Real time = 0;        ///< the last converged time
   Real tried_step = 0;  ///< the smallest time increment that was tried
   Index attempts = 0;   ///< attempts at the failed step
+  std::string
+      detail{};  ///< what of the scene is concerned, by name: a contact, a part of the body; empty if nothing is
 
   explicit operator bool() const { return trouble.cause == Cause::none; }
 
@@ -92,6 +94,7 @@ struct [[nodiscard]] Outcome {
     if (trouble.place.kind == Place::Kind::node) text += " (node " + std::to_string(trouble.place.number) + ")";
     if (trouble.place.kind == Place::Kind::contact_node)
       text += " (contact node " + std::to_string(trouble.place.number) + ")";
+    if (!detail.empty()) text += ": " + detail;
     return text + "; tried " + std::to_string(attempts) + " times down to a time increment of " +
            std::to_string(tried_step);
   }

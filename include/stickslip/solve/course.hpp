@@ -3,9 +3,13 @@
 
 #include <stickslip/solve/report.hpp>
 #include <stickslip/solve/step_control.hpp>
+#include <stickslip/solve/warnings.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace stickslip {
 
@@ -16,6 +20,8 @@ class Course {
   /// How the run ended, or that it goes well so far.
   const Outcome& outcome() const { return outcome_; }
   const RunReport& report() const { return now_.report; }
+  /// What the run should be looked at for, although it goes on.
+  const std::vector<Warning>& warnings() const { return now_.warnings.list(); }
 
  protected:
   struct State {
@@ -26,6 +32,7 @@ class Course {
     Real last_swing = 0;  // of the bounds' lag, over the bounds
     Index swings = 0;     // how often it has changed its sign and not fallen since it was last small, or probed
     WorkCounts work{};    // that of probes as well, which the report is told with the next step
+    Warnings warnings{};
 
     void serialize(Archive& archive) {
       control.serialize(archive);
@@ -35,6 +42,7 @@ class Course {
       archive("run, last swing", last_swing);
       archive("run, swings", swings);
       archive("run, work", work);
+      warnings.serialize(archive);
     }
   };
 
@@ -98,10 +106,19 @@ class Course {
     report.max_lag = std::max(report.max_lag, step.lag);
     report.book(step.work, step.errors);
   }
-  // Ends the run at the converged time, for the trouble of the step that was tried last.
-  void fail(const Trouble& trouble, Real time, Real dt, Index attempts) {
-    outcome_ = {
-        .trouble = trouble, .step = now_.report.steps + 1, .time = time, .tried_step = dt, .attempts = attempts};
+  // Warns of something in the step that is being taken; `subject` says of what, where a scene has several.
+  void warn(const std::string& name, const std::string& subject, const std::string& text) {
+    now_.warnings.add(name, subject, text, now_.report.steps + 1);
+  }
+  // Ends the run at the converged time, for the trouble of the step that was tried last; `detail` names what of the
+  // scene is concerned.
+  void fail(const Trouble& trouble, Real time, Real dt, Index attempts, std::string detail = {}) {
+    outcome_ = {.trouble = trouble,
+                .step = now_.report.steps + 1,
+                .time = time,
+                .tried_step = dt,
+                .attempts = attempts,
+                .detail = std::move(detail)};
     ended_ = true;
   }
   // The run between two steps; after a failure as it was before the step that failed.

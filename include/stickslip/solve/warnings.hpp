@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/archive.hpp>
+#include <stickslip/base/types.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stickslip {
+
+/// What a run that goes on should be looked at for.
+struct Warning {
+  std::string name;  ///< the kind, in snake_case: `energy_gained`
+  std::string text;  ///< one sentence with names and figures, of the first time
+  Index step = 0;    ///< the first step concerned, from 1; 0: the scene itself
+  Index count = 0;   ///< how often
+};
+
+/// The warnings of a run, in the order of their first times. A kind and what it concerns (a contact, say) is told once
+/// and counted afterwards.
+class Warnings {
+ public:
+  /// Tells a warning, or counts it if one of that name about `subject` has been told.
+  void add(const std::string& name, const std::string& subject, const std::string& text, Index step) {
+    for (std::size_t k = 0; k < list_.size(); ++k)
+      if (list_[k].name == name && subjects_[k] == subject) {
+        ++list_[k].count;
+        return;
+      }
+    list_.push_back({name, text, step, 1});
+    subjects_.push_back(subject);
+  }
+  const std::vector<Warning>& list() const { return list_; }
+
+  void serialize(Archive& archive) {
+    std::vector<char> words;
+    std::vector<Index> numbers;
+    for (std::size_t k = 0; k < list_.size(); ++k) {
+      for (const std::string* word : {&list_[k].name, &list_[k].text, &subjects_[k]})
+        words.insert(words.end(), word->c_str(), word->c_str() + word->size() + 1);
+      numbers.insert(numbers.end(), {list_[k].step, list_[k].count});
+    }
+    archive.any_length("run, warnings", words);
+    archive.any_length("run, times of warnings", numbers);
+    if (!archive.gives()) return;
+    list_.clear();
+    subjects_.clear();
+    auto at = words.begin();
+    const auto next = [&] {
+      const auto end = std::find(at, words.end(), '\0');
+      std::string word(at, end);
+      at = end == words.end() ? end : end + 1;
+      return word;
+    };
+    for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) {
+      std::string name = next(), text = next(), subject = next();
+      list_.push_back({std::move(name), std::move(text), numbers[k], numbers[k + 1]});
+      subjects_.push_back(std::move(subject));
+    }
+  }
+
+ private:
+  std::vector<Warning> list_;
+  std::vector<std::string> subjects_;
+};
+
+}  // namespace stickslip
