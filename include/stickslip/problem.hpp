@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <string>
 
 namespace stickslip {
 
@@ -65,6 +66,8 @@ class March : public Course {
   void advance();
   Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
   bool feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact);
+  void retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model>;
+  void look_for_supports(Trouble& trouble, std::string& detail);
 
   Scene<Mechanical>& problem_;
   Newton<SolverOf<Model>, has_near_tangent<Model>()> newton_;
@@ -171,11 +174,46 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
       grows = system.answer() >= system.stable_below() * share * before;
       break;
     }
-    system.begin_passes();
+    system.end_probe();
     now_.swings = 0;
     return grows || system.evaluate(u, time, dt);
   }
   return false;
+}
+
+/// Tries a step again that has not converged, from the converged state, before it is cut: nodes that lose their
+/// pressure on the way stick at first, and all do where friction alone holds the body, which nothing does at an iterate
+/// at which they slide (theory.md, section 6.4).
+template <class Model>
+void March<Model>::retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model> {
+  const Cause cause = newton.trouble.cause;
+  if (cause != Cause::singular_matrix && cause != Cause::stalled && cause != Cause::not_converged) return;
+  System<Mechanical>& system = *problem_.system_;
+  u = problem_.u_;
+  NewtonReport again{.trouble = system.impose(time, u)};
+  const bool sticking = system.held_by_friction(problem_.u_, problem_.time_);
+  system.begin_retry(sticking);
+  if (!again.trouble) again = newton_.resume(system, u, time, dt);
+  again.iterations += newton.iterations;
+  newton = again;
+}
+
+/// Names the reason of a step that could not be taken, where it is that nothing holds the body, or friction alone and
+/// not enough.
+template <class Model>
+void March<Model>::look_for_supports(Trouble& trouble, [[maybe_unused]] std::string& detail) {
+  System<Mechanical>& system = *problem_.system_;
+  [[maybe_unused]] std::string sliding;
+  if constexpr (has_friction<Model>) sliding = system.sliding_contacts();
+  if (!system.evaluate(problem_.u_, problem_.time_, 0) && system.moves_freely(problem_.u_)) {
+    trouble = {Cause::unsupported, {}};
+    return;
+  }
+  if constexpr (has_friction<Model>)
+    if (system.held_by_friction(problem_.u_, problem_.time_)) {
+      trouble = {Cause::slides, {}};
+      detail = sliding.empty() ? system.sliding_contacts() : sliding;
+    }
 }
 
 template <class Model>
@@ -217,6 +255,8 @@ void March<Model>::advance() {
       newton = newton_.solve(system, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
     }
     Index passes = 1;
+    if constexpr (has_friction<Model> && !has_inertia<Model>)
+      if (newton.trouble) retry(u, time, dt, newton);
     const Index first_iterations = newton.iterations;
     if constexpr (takes_passes<Model>())
       if (!newton.trouble) passes = pass_again(u, time, dt, newton);
@@ -270,10 +310,9 @@ void March<Model>::advance() {
     give_up();
     now_.control.reject(time);
     if (now_.control.too_small()) {
-      if constexpr (!has_inertia<Model>)
-        if (!system.evaluate(problem_.u_, problem_.time_, dt) && system.moves_freely(problem_.u_))
-          newton.trouble = {Cause::unsupported, {}};
-      return fail(newton.trouble, problem_.time_, dt, rejected);
+      std::string detail;
+      if constexpr (!has_inertia<Model>) look_for_supports(newton.trouble, detail);
+      return fail(newton.trouble, problem_.time_, dt, rejected, detail);
     }
   }
 }

@@ -53,6 +53,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     else
       return false;
   }();
+  /// Whether what the tangent lacks is found out by probes of the residual.
+  static constexpr bool probed = friction_is_symmetrised<Friction>;
   /// Bytes that a contact node keeps for one state (there are two: converged and trial).
   static constexpr std::size_t bytes_per_node = remembers ? sizeof(Memory) : 0;
 
@@ -82,6 +84,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     if constexpr (lags) {
       felt_.setZero(static_cast<Index>(nodes_.size()));
       changes_ = felt_;
+      own_.pressure.resize(nodes_.size(), 0.0);
+      own_.change = own_.pressure;
     }
     spacing_ = spacings(mesh, this->side_);
     poses_.reserve(5);  // of a tool that does not turn
@@ -150,26 +154,30 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   /// Begins an iteration: the pressures of the converged state become variables of their own.
   void begin_iteration() {
     pressures_.begin();
-    if constexpr (with_friction) std::fill(turning_.begin(), turning_.end(), Turning{});
+    if constexpr (with_friction) {
+      std::fill(turning_.begin(), turning_.end(), Turning{});
+      catches_ = false;
+    }
+    if constexpr (probed) start_.probing = false;
+    if constexpr (lags)
+      if (own_.taken) set_out_from_known();
   }
   /// Makes the pressures follow the change du of the displacements, and close a share of their defects.
   void follow(const Field& du, Real closing) {
     for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_.follow(k, at_node<dim>(du, nodes_[k]), closing);
-    if constexpr (with_friction)
-      for (Turning& t : turning_) {
-        if (closing == 0) break;  // a probe of the tangent is no step of the iteration
-        if (t.held) t.now.setZero();
-        t = {.before = t.now, .now = t.now, .again = t.again || t.turned};
-      }
+    if constexpr (with_friction) turn(closing == 0);
+    if constexpr (lags)
+      if (closing != 0) look_ahead();
   }
   void move(Real length) { pressures_.move(length); }
   Real openness() const { return pressures_.openness(); }
 
   /// Adds contact forces and their tangent at the nodal displacements u and `time`. With `excess`, at the pressures of
-  /// the iteration, and it takes the forces that closing their defects adds.
+  /// the iteration, and it takes the forces that closing their defects adds. If `smooth`, the tangent is the normal
+  /// part alone.
   template <class MeshType, class Couplings>
   Trouble assemble(const MeshType& mesh, const Field& u, Real time, Real dt, const Field* driven, Field& forces,
-                   Field* excess, Matrix& matrix, [[maybe_unused]] Couplings& couplings) {
+                   Field* excess, Matrix& matrix, [[maybe_unused]] Couplings& couplings, bool smooth = false) {
     const rigid::Pose<dim> pose = motion_.at(time);
     if (const Trouble t = stretched(pose)) return t;
     summary_ = {};
@@ -180,7 +188,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       SurfacePoint<Real, dim> at = seen_from_tool(mesh, u, pose, n);
       if (!std::isfinite(at.gap)) return {Cause::not_finite, {Place::Kind::contact_node, n}};
       Memory old{};
-      if constexpr (remembers) old = start_of_pass(k);
+      if constexpr (remembers) old = start_of_pass(k, dt);
       Vec<Real, place_components<dim>> slipped = Vec<Real, place_components<dim>>::Zero();
       if constexpr (with_friction) slipped = moved<Real, dim>(tool_, at.place, old.friction.place);
       const Real settled = settled_pressure(enforcement_, weight_[k], at, old);
@@ -188,9 +196,13 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if constexpr (with_friction && dim == 3)
         if (settled > 0 || pressure > 0) add_curvature_of_place(tool_, on_tool(mesh, u, pose, n), at);
       const auto node = contact_node<Real, dim>(enforcement_, friction_, Friction{}, weight_[k], at, slipped, old,
-                                                pressure, dt, area(k), excess && turned(k));
+                                                pressure, dt, area(k), excess && held(k, pressure));
       if (node.cause != Cause::none) return {node.cause, {Place::Kind::contact_node, n}};
       if constexpr (remembers) trial_[k] = node.memory;
+      if constexpr (lags)
+        if (node.touching && takes_own(k, dt))  // what it remembers of the steps before stays the base of its trend
+          trial_[k].friction.pressure =
+              Friction::Pressure::advance(node.pressure.value, committed_[k].friction.pressure, dt);
 
       ContactNodeState<dim>& state = trial_states_[k];
       state.gap = at.gap;
@@ -201,11 +213,12 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       summary_.stored += 0.5 * std::abs(state.pressure * state.gap - states_[k].pressure * states_[k].gap);
       pressures_[k] = node.pressure;
       if constexpr (with_friction) {
-        if (excess) {
+        if (excess && !probing()) {
           Turning& t = turning_[k];
           t.held = turned(k) && node.sliding;
           t.now = node.slides;
           t.turned = t.turned || t.now.dot(t.before) < 0;
+          t.pressed = t.pressed || settled > 0;
         }
         state.slip = node.memory.friction.slip;
         summary_.max_slip = std::max(summary_.max_slip, state.slip);
@@ -214,6 +227,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       state.force = product(pose.rotation, node.force);
       Mat<Real, dim> whole = node.stiffness;
       add(whole, node.coupling);
+      if (smooth) whole = scaled(product_transposed(at.normal, at.normal), at.normal.dot(product(whole, at.normal)));
       whole = turned_into_space(pose, whole);
       if (!is_finite(state.force) || !is_finite(whole)) return {Cause::not_finite, {Place::Kind::contact_node, n}};
       add_at_node(forces, n, state.force);
@@ -225,7 +239,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       }
       if (driven) add_at_node(forces, n, product(whole, at_node<dim>(*driven, n)));
       if constexpr (keeps_couplings<Model>) {
-        const Mat<Real, dim> symmetric = turned_into_space(pose, node.stiffness);
+        const Mat<Real, dim> symmetric = smooth ? whole : turned_into_space(pose, node.stiffness);
         matrix.add(slots_[k], symmetric);
         if (node.sliding) couplings.add(equations_[k], minus(whole, symmetric));
       } else {
@@ -267,6 +281,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   /// `commit` do so; a step that is given up needs it.
   void begin_passes() requires(passes || lags) {
     renewed_ = committed_;
+    if constexpr (lags) own_.taken = true, own_.of_all = false;
     if constexpr (iterates) relaxation_ = {};
     if constexpr (is_augmented<Enforcement>) {
       for (Real& w : weight_) w /= stiffened_;
@@ -283,7 +298,10 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     if constexpr (is_augmented<Enforcement>)
       for (std::size_t k = 0; k < nodes_.size(); ++k) {
         renewed_[k].enforcement = trial_[k].enforcement;
-        if constexpr (with_friction) renewed_[k].friction.traction = trial_[k].friction.traction;
+        if constexpr (with_friction) {
+          renewed_[k].friction.traction = trial_[k].friction.traction;
+          turning_[k].stuck = trial_states_[k].touching && !trial_states_[k].sliding;
+        }
       }
   }
   /// Goes a smaller part of the way of the last `renew`, where that has led to a step without a solution; false when
@@ -300,6 +318,20 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   static constexpr Real stable_below() requires lags { return Friction::Pressure::stable_below; }
   /// Makes the bounds see a share of the last `bound_change`.
   void probe(Real share) requires lags { see(share); }
+  /// Goes back from a probe to the bounds of the step.
+  void end_probe() requires lags {
+    renewed_ = committed_;
+    own_.taken = true;
+  }
+  /// Makes an iteration that has begun linearise nodes as sticking whose pressure it loses though their gaps ask for
+  /// one. If `sticking`, it sets out from nodes that all stick, and lagging bounds are, until `begin_passes`, of the
+  /// step's own pressures.
+  void retry(bool sticking) requires with_friction {
+    catches_ = true;
+    if (!sticking) return;
+    for (Turning& t : turning_) t.stuck = true;
+    if constexpr (lags) own_.of_all = true;
+  }
   /// Square of the norm of what the pressures have changed by since the last `bound_change` [force^2].
   Real answer_squared() const requires lags {
     Real square = 0;
@@ -404,7 +436,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   const Field& changes() requires lags {
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const auto i = static_cast<Index>(k);
-      felt_[i] = Friction::Pressure::pressure(found(k), renewed_[k].friction.pressure, dt_);
+      felt_[i] = Friction::Pressure::pressure(found(k), start_of_pass(k, dt_).friction.pressure, dt_);
       changes_[i] = found(k) - felt_[i];
     }
     return changes_;
@@ -413,17 +445,82 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   Real found(std::size_t k) const { return trial_states_[k].touching ? pressures_[k].value : 0; }
   // Makes the bounds see the pressures a part of the way from those that they saw to those that were found.
   void see(Real share) requires lags {
+    own_.taken = false;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const auto i = static_cast<Index>(k);
       renewed_[k].friction.pressure = Friction::Pressure::seeing(std::max(0.0, felt_[i] + share * changes_[i]));
     }
   }
 
-  const Memory& start_of_pass(std::size_t k) const requires remembers {
-    if constexpr (passes || lags)
-      return renewed_[k];
-    else
+  Memory start_of_pass(std::size_t k, [[maybe_unused]] Real dt) const requires remembers {
+    if constexpr (passes || lags) {
+      Memory memory = renewed_[k];
+      if constexpr (lags)
+        if (takes_own(k, dt)) memory.friction.pressure = Friction::Pressure::seeing(own_.pressure[k]);
+      return memory;
+    } else {
       return committed_[k];
+    }
+  }
+
+  // Whether the node's bound is that of the step's own pressure: it did not slide in the last step, or no pressure is
+  // known of it (theory.md, section 5.4).
+  bool takes_own(std::size_t k, Real dt) const requires lags {
+    return own_.taken && (own_.of_all || !states_[k].sliding ||
+                          !(Friction::Pressure::pressure(Real(0), committed_[k].friction.pressure, dt) > 0));
+  }
+  // Begins the step's own pressures with those of the last one. Of the nodes that stuck these are no more than a start.
+  void set_out_from_known() requires lags {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      own_.pressure[k] = states_[k].pressure;
+      turning_[k].stuck = states_[k].touching && !states_[k].sliding;
+    }
+    own_.looks = 0;
+  }
+  // Takes the pressures that the iteration is led to into the bounds of nodes that have none of an earlier step, while
+  // they change.
+  void look_ahead() requires lags {
+    const int most = own_.of_all ? most_looks_of_all : most_looks;
+    if (!own_.taken || own_.looks == most) return;
+    // Aitken's share of the way, as between passes (5.30): what friction does to its own pressure may be more than
+    // that.
+    Real change = 0, largest = 0, product = 0, square = 0;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (!takes_own(k, dt_)) continue;
+      const Real last = own_.change[k];
+      own_.change[k] = std::max(0.0, pressures_.ahead(k)) - own_.pressure[k];
+      product += last * (own_.change[k] - last);
+      square += std::pow(own_.change[k] - last, 2);
+    }
+    if (own_.looks < 2 || !own_.of_all)
+      own_.share = 1;
+    else if (square > 0)
+      own_.share = std::clamp(-own_.share * product / square, Real(0.05), Real(2));
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (!takes_own(k, dt_)) continue;
+      own_.pressure[k] = std::max(0.0, own_.pressure[k] + own_.share * own_.change[k]);
+      change = std::max(change, std::abs(own_.change[k]));
+      largest = std::max(largest, own_.pressure[k]);
+    }
+    own_.looks = change > 1e-3 * largest ? own_.looks + 1 : most;
+  }
+
+  // Goes on to the next search along a solution. A probe of the tangent sees the nodes as they were where the search
+  // set out, which is what the matrix is made of.
+  void turn(bool probe) requires with_friction {
+    if constexpr (probed) {
+      (probe ? turning_ : start_.turning) = probe ? start_.turning : turning_;
+      start_.probing = probe;
+    }
+    if (probe) return;
+    for (Turning& t : turning_) {
+      if (t.held) t.now.setZero();
+      t = {.before = t.now, .now = t.now, .again = t.again || t.turned, .lost = t.lost || t.pressed};
+    }
+  }
+  bool probing() const {
+    if constexpr (probed) return start_.probing;
+    return false;
   }
 
   // Whether the search along a solution has been at a place where the node slides the other way (theory.md, eq. 6.11).
@@ -432,6 +529,15 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       return turning_[k].turned && turning_[k].again;
     else
       return false;
+  }
+
+  // Whether a sliding node is linearised as one that sticks: it turned to and fro, or the iteration has led its
+  // pressure to nothing where its gap asks for one; or no pressure has been seen yet that its bound could be of
+  // (theory.md, section 5.4).
+  bool held(std::size_t k, Real pressure) const {
+    if constexpr (with_friction)
+      if (turning_[k].stuck || (catches_ && turning_[k].lost && !(pressure > 0))) return true;
+    return turned(k);
   }
 
   // Reference area that a node carries, where the friction law asks for it.
@@ -459,6 +565,18 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     Vec<Real, place_components<dim>> before = Vec<Real, place_components<dim>>::Zero();  // where the search set out
     Vec<Real, place_components<dim>> now = Vec<Real, place_components<dim>>::Zero();
     bool turned = false, again = false, held = false;  // in this search, in an earlier one
+    bool pressed = false, lost = false;                // its gap asked for a pressure, in an earlier iteration
+    bool stuck = false;                                // where the iteration sets out
+  };
+
+  // The step's own pressures, for bounds that have none of an earlier step.
+  static constexpr int most_looks = 2, most_looks_of_all = 14;
+  struct Own {
+    std::vector<Real> pressure{}, change{};  // that the bounds take [force]
+    Real share = 1;
+    int looks = 0;      // at the iteration's pressures so far
+    bool taken = true;  // until passes or a probe say what the bounds see
+    bool of_all = false;
   };
 
   Tool tool_;
@@ -467,7 +585,13 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   std::vector<Real> weight_;
   [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
   StiffRelations<dim> pressures_;
+  struct Start {  // of a search
+    std::vector<Turning> turning{};
+    bool probing = false;
+  };
   [[no_unique_address]] Only<with_friction, std::vector<Turning>, struct TurningTag> turning_;
+  [[no_unique_address]] Only<probed, Start, struct StartTag> start_{};
+  [[no_unique_address]] Only<with_friction, bool, struct CatchesTag> catches_{};  // nodes that lose their pressure
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;
   [[no_unique_address]] Only<passes || lags, std::vector<Memory>, Friction> renewed_;  // where the present pass starts
@@ -479,6 +603,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   [[no_unique_address]] Only<lags, Field, Matrix> felt_;  // pressures that the bounds of the last pass saw
   [[no_unique_address]] Only<lags, Field, struct ChangesTag> changes_;  // and what it found, less these
   [[no_unique_address]] Only<lags, Real, struct StepTag> dt_{};         // of the last assembly
+  [[no_unique_address]] Only<lags, Own, struct OwnTag> own_{};
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dim))>> slots_;
   using NodeEquations = std::vector<std::array<Index, static_cast<std::size_t>(dim)>>;
   [[no_unique_address]] Only<keeps_couplings<Model>, NodeEquations, Tool> equations_;

@@ -70,6 +70,13 @@ Mat<S, 3> inverse(const Mat<S, 3>& a) {
 
 }  // namespace detail
 
+/// Whether a friction force of that size is within the bound (theory.md, eq. 5.3). Where nothing pulls yet and nothing
+/// presses, it is if the bound will rise with the pressure.
+template <class S>
+bool sticks(const S& size, const FrictionBound<S>& bound) {
+  return value_of(size) < value_of(bound.value) || (!(value_of(size) > 0) && value_of(bound.d_pressure) > 0);
+}
+
 /// Radial return to an isotropic bound, |t_F| = |trial| - stiffness lambda = bound(pressure, slip + lambda) (theory.md,
 /// eq. 5.3-5.8). bound(slide) gives the FrictionBound.
 template <class Law, class S, int m, class Bound>
@@ -78,7 +85,7 @@ FrictionReturn<S, m> radial_return(const Vec<S, m>& trial, const S& stiffness, B
   FrictionBound<S> bound = bound_at(S(0));
   FrictionReturn<S, m> out{.traction = trial, .d_place = isotropic<m>(stiffness)};
   out.bound = bound.value;
-  if (value_of(size) < value_of(bound.value)) return out;
+  if (sticks(size, bound)) return out;
   out.sliding = true;
   S lambda = S(0);
   if (value_of(stiffness) > 0) lambda = (size - bound.value) / stiffness;
@@ -133,7 +140,7 @@ FrictionReturn<S, 3> elliptic_return(const Vec<S, 3>& trial, const S& stiffness,
     for (int j = 0; j < 3; ++j) M(i, j) = S(metric(i, j));
   const S square = contraction(trial, product(M, trial));
   const S size = value_of(square) > 0 ? S(sqrt(square)) : S(0);
-  if (value_of(size) < value_of(bound.value)) return out;
+  if (sticks(size, bound)) return out;
   out.sliding = true;
   if (!(value_of(bound.value) > 0)) {  // nothing to bear
     out.traction.setZero();

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -166,9 +167,19 @@ class System {
     for_each_lag([&](auto& pair) { least = std::min(least, pair.stable_below()); });
     return least;
   }
-  /// Makes lagging bounds see a share of the last `bound_change`; `begin_passes` takes that back.
+  /// Makes lagging bounds see a share of the last `bound_change`; `end_probe` takes that back.
   void probe(Real share) requires with_lag {
     for_each_lag([&](auto& pair) { pair.probe(share); });
+  }
+  void end_probe() requires with_lag {
+    for_each_lag([](auto& pair) { pair.end_probe(); });
+  }
+  /// Begins an iteration that takes more care of contact nodes than one that has failed: see ContactPair.
+  void begin_retry(bool sticking) requires(has_friction<Model>) {
+    begin_iteration();
+    for_each_contact(pairs_, [&](auto& pair) {
+      if constexpr (std::remove_reference_t<decltype(pair)>::with_friction) pair.retry(sticking);
+    });
   }
   /// Norm of what the pressures have changed by since the last `bound_change` [force].
   Real answer() requires with_lag {
@@ -253,6 +264,27 @@ class System {
     return share > 1e-6 * moved->norm();
   }
 
+  /// Whether friction alone resists some rigid-body motion at the displacements u and `time`: without it nothing does.
+  bool held_by_friction(const Field& u, Real time) requires(has_friction<Model>) {
+    return !assemble(u, time, 0, nullptr, nullptr, true) && moves_freely(u);
+  }
+  /// Names the contacts all of whose touching nodes slid in the last evaluation, or else those of which some did, or
+  /// else those that touched; empty if there is friction at none.
+  std::string sliding_contacts() const requires(has_friction<Model>) {
+    const auto named = [&](auto&& takes) {
+      std::string names;
+      for_each_contact(pairs_, [&](const auto& pair) {
+        if constexpr (std::remove_reference_t<decltype(pair)>::with_friction)
+          if (pair.summary().touching > 0 && takes(pair.summary()))
+            names += (names.empty() ? "contact \"" : ", contact \"") + pair.name() + "\"";
+      });
+      return names;
+    };
+    std::string names = named([](const ContactSummary& of) { return of.sliding == of.touching; });
+    if (names.empty()) names = named([](const ContactSummary& of) { return of.sliding > 0; });
+    return names.empty() ? named([](const ContactSummary&) { return true; }) : names;
+  }
+
   /// Whether a contact node has gone through its tool between the converged displacements `from` at the time `begin`
   /// and the last evaluation, `to` at the time `end`.
   Trouble passed_through(const Field& from, const Field& to, Real begin, Real end) requires with_contact {
@@ -307,8 +339,9 @@ class System {
     return 1;
   }
 
-  // Internal, contact and external forces by component, their balance without inertia, and its derivative.
-  Trouble assemble(const Field& u, Real time, Real dt, const Field* driven, Field* excess) {
+  // Internal, contact and external forces by component, their balance without inertia, and its derivative, of friction
+  // unless contact is to be `smooth`.
+  Trouble assemble(const Field& u, Real time, Real dt, const Field* driven, Field* excess, bool smooth = false) {
     internal_.setZero();
     matrix_.set_zero();
     {
@@ -321,7 +354,8 @@ class System {
       if constexpr (keeps_couplings<Model>) couplings_.clear();
       Trouble trouble;
       for_each_contact(pairs_, [&](auto& pair) {
-        if (!trouble) trouble = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, excess, matrix_, couplings_);
+        if (!trouble)
+          trouble = pair.assemble(body_.mesh(), u, time, dt, driven, contact_, excess, matrix_, couplings_, smooth);
       });
       if (trouble) return trouble;
     }

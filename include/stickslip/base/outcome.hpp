@@ -17,6 +17,7 @@ enum class Cause {
   friction_failed,   ///< a friction law's slip did not converge, or it softens faster than its stiffness can follow
   singular_matrix,   ///< the factorisation met a zero pivot: a rigid-body mode or a limit point
   unsupported,       ///< a rigid-body motion that no support and no tool resists
+  slides,            ///< nothing but friction holds the body, and it is not enough
   not_converged,     ///< the iteration limit was reached
   passes_failed,     ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
   lag_feeds_back,    ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
@@ -43,6 +44,8 @@ inline const char* describe(Cause cause) {
       return "the tangent matrix is singular";
     case Cause::unsupported:
       return "nothing holds the body: no support and no tool resists a rigid-body motion of it";
+    case Cause::slides:
+      return "nothing but friction holds the body, and it slides";
     case Cause::not_converged:
       return "the Newton iteration did not converge within its limit";
     case Cause::passes_failed:

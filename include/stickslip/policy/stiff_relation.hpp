@@ -49,6 +49,8 @@ class StiffRelations {
     start_[k] = now_[k].value;
     step_[k] = closing * now_[k].defect + now_[k].slope.dot(du);
   }
+  /// The value where the last `follow` leads.
+  Real ahead(std::size_t k) const { return start_[k] + step_[k]; }
   /// Goes to a part of the changes of the last `follow`.
   void move(Real length) {
     for (std::size_t k = 0; k < now_.size(); ++k) now_[k].value = start_[k] + length * step_[k];

@@ -187,6 +187,9 @@ class Newton {
     MinimalResidual& krylov = probes_.krylov;
     u = start_;
     system.move(0);
+    change_.setZero();
+    system.follow(change_, 0);  // what the system notes of an iteration goes back there as well
+    system.move(0);
     if (const Trouble t = system.iterate(u, time, dt)) return t;
     probes_.residual = system.residual();
     krylov.begin(probes_.residual);
