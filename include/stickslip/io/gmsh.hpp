@@ -500,7 +500,7 @@ class GmshMesh {
     for (const auto& [group, name] : file_.names)
       if (group.first < dim && members.count(group) == 0)
         text_.fail_whole("the group \"" + shown(name, 60) +
-                         "\" has a name and no elements; format 2.2 loses groups with Mesh.SaveAll = 1, and a mesh "
+                         "\" has a name but no elements; format 2.2 loses groups with Mesh.SaveAll = 1, and a mesh "
                          "that is saved in pieces has in each file some");
     for (const auto& [group, elements] : members) {
       const std::string name = name_of(group);
