@@ -91,8 +91,8 @@ class NewFile {
     struct ::stat old {};
     const bool there = ::stat(path_.c_str(), &old) == 0;
     if (!there && errno != ENOENT) fail(errno);
-    std::error_code error;
-    if (!there && std::filesystem::is_symlink(path_, error)) refuse("it is a link to a file that does not exist");
+    struct ::stat link {};
+    if (!there && ::lstat(path_.c_str(), &link) == 0) refuse("it is a link to a file that does not exist");
     if (there && S_ISDIR(old.st_mode)) fail(EISDIR);
     if (there && (!S_ISREG(old.st_mode) || is_descriptor())) {
       if (target == Target::regular) refuse("it is no regular file");
@@ -100,6 +100,7 @@ class NewFile {
       if (buffer_.file < 0) fail(errno);
       return;
     }
+    std::error_code error;
     if (there) place_ = std::filesystem::canonical(path_, error);
     if (error) fail(error.value());
     std::random_device random;
