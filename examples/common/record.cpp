@@ -169,9 +169,11 @@ void draw(const std::filesystem::path& directory, const std::string& name, const
   const int status = std::system(("gnuplot " + name + ".gp > " + name + ".log 2>&1").c_str());
   std::filesystem::current_path(here);
   const std::string log = name + ".log";
-  if (status != 0)
+  if (status != 0) {
+    for (const char* torn : {".png", ".svg"}) std::filesystem::remove(directory / (name + torn));
     throw std::runtime_error("gnuplot could not draw " + (directory / name).string() +
                              "; is the package gnuplot-nox installed? Its words are in " + log);
+  }
   std::filesystem::remove(directory / log);
 }
 
