@@ -174,7 +174,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # A disc that is full, by the limit of the size of files: no torn file, the run goes on, and record and code say so.
     files = folder / "full"
-    limited = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))
+    limited = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (33000, 33000))
     code, words, ran = told(["--output", files, "--json", folder / "full.json"], preexec_fn=limited)
     check(code == 4 and ran and words[0] == f"pressed_block: cannot write {files / 'pressed_block_0000.vtu'}: File too large", words)
     result = json.loads((folder / "full.json").read_text())
