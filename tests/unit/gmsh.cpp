@@ -227,10 +227,10 @@ TEST_CASE("a partitioned mesh is read as the whole one, with or without ghost ce
     CHECK(m.nodes == whole.nodes);
     CHECK(m.cells == whole.cells);
     REQUIRE(m.sides.size() == whole.sides.size());
-    for (const auto& [name, side] : whole.sides) {
-      INFO(name);
-      CHECK(m.side(name).facets == side.facets);
-      CHECK(m.side(name).nodes == side.nodes);
+    for (const auto& side : whole.sides) {
+      INFO(side.first);
+      CHECK(m.side(side.first).facets == side.second.facets);
+      CHECK(m.side(side.first).nodes == side.second.nodes);
     }
   }
   // Format 2.2 tells of partitions behind the entity.
