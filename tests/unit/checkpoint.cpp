@@ -391,7 +391,7 @@ TEST_CASE("damaged files are refused, and the problem is left alone") {
     refused(*s.problem, s.march, s.bad, "is damaged: what it claims of its sections is not what it has");
   }
   // Counts that lie, behind checksums that are right: of sections, and of the first one's name, size and values.
-  for (const std::size_t at : {0, 8, 16, 24})
+  for (const std::size_t at : {0u, 8u, 16u, 24u})
     for (const std::uint64_t lie : {std::uint64_t(1) << 40, std::uint64_t(1) << 63, ~std::uint64_t(0)}) {
       std::string payload = whole.substr(40);
       std::memcpy(payload.data() + at, &lie, sizeof(lie));
@@ -400,7 +400,7 @@ TEST_CASE("damaged files are refused, and the problem is left alone") {
     }
   // The product of size and count is that of the bytes, but only beyond 64 bits.
   std::string wrapped = whole.substr(40);
-  for (const std::size_t at : {16, 24}) {
+  for (const std::size_t at : {16u, 24u}) {
     const std::uint64_t half = std::uint64_t(1) << 32;
     std::memcpy(wrapped.data() + at, &half, sizeof(half));
   }
