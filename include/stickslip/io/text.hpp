@@ -22,13 +22,15 @@
 /// what has been read, never with what is claimed.
 namespace stickslip::io::detail {
 
-/// All bytes of a stream. Throws std::runtime_error, naming it.
+/// All bytes of a stream. Throws std::runtime_error, naming it and, where the system gives one, the reason.
 inline std::string read_all(std::istream& in, const std::string& name) {
   std::string bytes;
   std::array<char, 1 << 12> block{};
+  errno = 0;
   while (in.read(block.data(), block.size()), in.gcount() > 0)
     bytes.append(block.data(), static_cast<std::size_t>(in.gcount()));
-  if (in.bad() || !in.eof()) throw std::runtime_error("cannot read " + name);
+  if (in.bad() || !in.eof())
+    throw std::runtime_error("cannot read " + name + (errno != 0 ? ": " + std::generic_category().message(errno) : ""));
   return bytes;
 }
 
