@@ -2,7 +2,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-build_packages="g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libmumps-seq-dev liblapack-dev libopenblas-dev libboost-dev libboost-program-options-dev libboost-serialization-dev nlohmann-json3-dev python3 gnuplot-nox"
+build_packages="g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libmumps-seq-dev liblapack-dev libopenblas-dev libboost-dev libboost-program-options-dev nlohmann-json3-dev python3 gnuplot-nox"
 
 # Tests at a time. Asked for before the next line, by which nproc goes.
 cores=$(env -u OMP_NUM_THREADS nproc)

@@ -23,8 +23,6 @@ stickslip_part(tabulated HEADERS material/tabulated_hardening.hpp ABOUT "Boost.M
                PACKAGES "Boost 1.74" TARGETS Boost::headers)
 stickslip_part(triangulated HEADERS geometry/triangulated.hpp ABOUT "Boost.Geometry" DEBIAN libboost-dev
                PACKAGES "Boost 1.74" TARGETS Boost::headers)
-stickslip_part(checkpoint HEADERS io/checkpoint.hpp ABOUT "Boost.Serialization" DEBIAN libboost-serialization-dev
-               PACKAGES "Boost 1.74 COMPONENTS serialization" TARGETS Boost::serialization)
 
 # stickslip_add_part(NAME MISSING [IMPORTED]): finds what a part needs and adds stickslip::NAME, as an imported target of
 # the installed package or as one of this build. MISSING is empty, or tells in a sentence why there is no such target.

@@ -166,5 +166,9 @@ int main(int argc, char** argv) {
          ...);
       },
       Sweep{});
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {  // a disc that is full, say
+    std::fprintf(stderr, "policy_sweep: the table could not be written\n");
+    return 1;
+  }
   return all ? 0 : 1;
 }

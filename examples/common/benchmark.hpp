@@ -5,6 +5,7 @@
 #include "checkpoint.hpp"
 #include "dispatch.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 #include "pictures.hpp"
 #include "record.hpp"
 
@@ -94,6 +95,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark be
   benchmark.march.lag_tolerance = options.lag_tolerance;
   benchmark.march.step_tolerance = options.step_tolerance;
   benchmark.march.space_every = options.space_every;
+  Outputs outputs(options, benchmark.labels.name);
   Record r{.labels = benchmark.labels, .symmetric_storage = Problem<Model>::symmetric_storage};
   r.elements = problem.body().mesh().cell_count();
   const auto note = [&] {
@@ -108,11 +110,12 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark be
   double next_frame = 0;
   double last_frame = 0;
   const auto keep_state = [&] {
-    series->write(problem);
+    outputs.attempt([&] { series->write(problem); });
     last_frame = problem.time();
   };
   const auto write_shot = [&](const std::string& name) {
-    write_mesh_data(options.output / name, problem.body(), problem.displacement(), benchmark.section);
+    outputs.attempt(
+        [&] { write_mesh_data(options.output / name, problem.body(), problem.displacement(), benchmark.section); });
   };
   if (files) {
     series.emplace(options.output, benchmark.labels.name);
@@ -130,7 +133,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark be
   const Checkpoints checkpoints(options);
   const auto keep_checkpoint = [&] {
     r.seconds = seconds_before + clock.seconds();
-    checkpoints.write(Archive::of(state));
+    return outputs.attempt([&] { checkpoints.write(Archive::of(state)); });
   };
   bool stopped = false;
   for (const StepReport& step : march) {
@@ -155,8 +158,8 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark be
   }
   clock.stop();
   end_progress(options);
-  if (checkpoints.kept()) keep_checkpoint();
-  if (stopped) return conclude_stopped(options, benchmark.labels.name, march.report().steps);
+  const bool kept = !checkpoints.kept() || keep_checkpoint();
+  if (stopped) return conclude_stopped(options, benchmark.labels.name, march.report().steps, kept);
 
   r.unknowns = problem.unknowns();
   r.outcome = march.outcome();
@@ -169,9 +172,9 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark be
   if (files) {
     if (last_frame < problem.time()) keep_state();
     write_shot("mesh.dat");
-    write_tool_data(options.output / "tools.dat", problem, benchmark.reach_mm);
+    outputs.attempt([&] { write_tool_data(options.output / "tools.dat", problem, benchmark.reach_mm); });
   }
-  return conclude(options, r);
+  return conclude(options, r, outputs);
 }
 
 }  // namespace examples

@@ -23,7 +23,11 @@ Checkpoints::Checkpoints(const Options& options) : options_(options) {
   struct sigaction action {};
   action.sa_handler = note_signal;
   action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);  // what is being written is written to its end
-  for (const int signal : {SIGTERM, SIGINT}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup means it
+  }
 }
 
 bool Checkpoints::due(int step) const {
@@ -42,7 +46,12 @@ stickslip::Archive read_restart(const Options& options) {
   return stickslip::io::read_checkpoint(options.restart);
 }
 
-int conclude_stopped(const Options& options, const std::string& program, int step) {
+int conclude_stopped(const Options& options, const std::string& program, int step, bool kept) {
+  if (!kept) {
+    std::cerr << program << ": stopped by signal " << stop_signal << " after step " << step
+              << "; the state could not be kept\n";
+    return 1;
+  }
   std::cerr << program << ": stopped by signal " << stop_signal << " after step " << step << "; --restart "
             << options.checkpoint.string() << " continues from there\n";
   return stopped_by_signal;

@@ -11,8 +11,8 @@ namespace examples {
 /// Exit code of a run that a signal has ended, with its state in the file of --checkpoint.
 inline constexpr int stopped_by_signal = 3;
 
-/// Watches for SIGTERM and SIGINT and keeps restart files, if the options ask for that. A second signal ends the
-/// program at once.
+/// Watches for SIGTERM, SIGINT and SIGHUP, where they are not ignored, and keeps restart files, if the options ask for
+/// that. A second signal ends the program at once.
 class Checkpoints {
  public:
   explicit Checkpoints(const Options& options);
@@ -31,8 +31,8 @@ class Checkpoints {
 /// The state that --restart names.
 stickslip::Archive read_restart(const Options& options);
 
-/// Says where a run that a signal ended has been left. Returns the exit code.
-int conclude_stopped(const Options& options, const std::string& program, int step);
+/// Says where a run that a signal ended has been left, if its state was `kept`. Returns the exit code.
+int conclude_stopped(const Options& options, const std::string& program, int step, bool kept);
 
 /// What a restarted run must have been asked for as well: everything that its results depend on.
 void require_same(stickslip::Archive& archive, const Options& options);

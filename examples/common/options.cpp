@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "options.hpp"
 
+#include <stickslip/io/new_file.hpp>
+
 #include <boost/make_shared.hpp>
 #include <boost/program_options.hpp>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
+#include <csignal>
+#include <cstdio>
 #include <iostream>
+#include <locale>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 namespace examples {
 
@@ -29,9 +39,11 @@ std::string shown(std::string text, std::size_t longest = 80) {
 
 double number(const std::string& option, const std::string& text, double low, double high,
               const std::string& accepted) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || end != text.c_str() + text.size() || !std::isfinite(value) || value < low || value > high)
+  const char *first = text.data(), *last = first + text.size();
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') ++first;  // from_chars takes no plus
+  double value = 0;
+  const auto [end, error] = std::from_chars(first, last, value);
+  if (error != std::errc() || end != last || !std::isfinite(value) || value < low || value > high)
     refuse(option, text, accepted);
   return value;
 }
@@ -50,11 +62,40 @@ void known(const std::string& option, const std::string& name, const std::vector
 
 std::string short_number(double x) {
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text << x;
   return text.str();
 }
 
+[[noreturn]] void refuse_output(int error) {
+  throw std::runtime_error("cannot write to the standard output: " + stickslip::io::detail::reason(error));
+}
+
+void flush_standard_output() {
+  errno = 0;
+  const bool sound = std::cout.flush().good() && std::ferror(stdout) == 0;
+  if (std::fflush(stdout) != 0 || !sound) refuse_output(errno != 0 ? errno : EIO);
+}
+
+// A file that is opened would take the number of a standard stream that is closed, and get what is meant for that.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      (void)!open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // reading or writing fails as before
+}
+
 }  // namespace
+
+void check_standard_output() {
+  const int flags = fcntl(STDOUT_FILENO, F_GETFL);
+  if (flags < 0) refuse_output(errno);
+  if ((flags & O_ACCMODE) == O_RDONLY) refuse_output(EBADF);
+}
+
+void write_to_standard_output(std::string_view text) {
+  flush_standard_output();
+  if (const int error = stickslip::io::detail::write_all(STDOUT_FILENO, text.data(), text.size())) refuse_output(error);
+}
 
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
@@ -89,7 +130,8 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
   add("advise", &wished, "X", "say how an error of the force below X would be reached in the least time");
   add("output", &output, "DIR", "write VTU, CSV and pictures there");
   add("json", &o.json, "FILE", "write the results there, - for standard output");
-  add("checkpoint", &checkpoint, "FILE", "keep the state there to restart from, written also on SIGTERM and SIGINT");
+  add("checkpoint", &checkpoint, "FILE",
+      "keep the state there to restart from, written also on SIGTERM, SIGINT and SIGHUP");
   add("checkpoint-every", &checkpoint_every, "N", "write it every N steps (default 50)");
   add("restart", &restart, "FILE", "continue the run of the same options that kept this state");
   std::map<std::string, std::string> given;
@@ -168,15 +210,26 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
 }
 
 int guarded(const std::string& name, const std::function<int()>& body) {
+  occupy_standard_streams();
+  // A pipe that nobody reads and a file beyond the limit are errors like others.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  int code = 0;
   try {
-    return body();
+    code = body();
   } catch (const BadOption& e) {
     std::cerr << name << ": " << e.what() << '\n';
-    return 2;
+    code = 2;
   } catch (const std::exception& e) {
     std::cerr << name << ": " << e.what() << '\n';
-    return 1;
+    code = 1;
   }
+  try {
+    flush_standard_output();
+  } catch (const std::exception& e) {
+    std::cerr << name << ": " << e.what() << '\n';
+    if (code == 0) code = output_missing;
+  }
+  return code;
 }
 
 }  // namespace examples

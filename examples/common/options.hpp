@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace examples {
@@ -60,7 +61,17 @@ std::string joined(const std::vector<std::string>& names);
 /// Reads the command line; empty when --help was answered.
 std::optional<Options> parse(int argc, char** argv, const Program& program);
 
-/// Runs the body of a main function: exit code 2 and one sentence for input that cannot be taken, 1 for a failure.
+/// Exit code of a run that came to its end, but not all that it was asked for could be written.
+inline constexpr int output_missing = 4;
+
+/// Whether the standard output is open to be written. Throws std::runtime_error with the reason if not.
+void check_standard_output();
+
+/// Writes to it. Throws std::runtime_error with the reason, as where it is a full disc or a pipe that nobody reads.
+void write_to_standard_output(std::string_view text);
+
+/// Runs the body of a main function: exit code 2 and one sentence for input that cannot be taken, 1 for a failure, 4 if
+/// what was printed could not be written.
 int guarded(const std::string& name, const std::function<int()>& body);
 
 }  // namespace examples

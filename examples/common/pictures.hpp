@@ -3,13 +3,14 @@
 #pragma once
 
 #include <stickslip/base/nodal.hpp>
+#include <stickslip/io/new_file.hpp>
 #include <stickslip/problem.hpp>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <map>
+#include <ostream>
 #include <set>
 #include <string>
 #include <utility>
@@ -71,7 +72,8 @@ void write_mesh_data(const std::filesystem::path& path, const Body& body, const 
   constexpr int dim = Body::dim;
   const auto& mesh = body.mesh();
   const std::vector<double> value = plastic_strains(body, u);
-  std::ofstream out(path);
+  stickslip::io::NewFile file(path);
+  std::ostream& out = file.stream();
   out << "# x y plastic_strain x_at_start y_at_start: one patch a cell\n";
   for (const auto& [nodes, cell] : patches(mesh, section)) {
     for (const std::size_t a : {0u, 1u, 3u, 2u}) {
@@ -83,7 +85,7 @@ void write_mesh_data(const std::filesystem::path& path, const Body& body, const 
     }
     out << "\n\n";
   }
-  if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
+  file.place();
 }
 
 /// Name of the file that holds the deformed mesh at a travel: mesh_10.0.dat.
@@ -93,7 +95,8 @@ std::string shot_name(double travel_mm);
 /// axis.
 template <class Model>
 void write_tool_data(const std::filesystem::path& path, const stickslip::Scene<Model>& problem, double reach) {
-  std::ofstream out(path);
+  stickslip::io::NewFile file(path);
+  std::ostream& out = file.stream();
   problem.visit_contacts([&](const auto& pair) {
     const auto pose = pair.motion().at(problem.time());
     if constexpr (Model::Kinematics::dim == 2)
@@ -106,7 +109,7 @@ void write_tool_data(const std::filesystem::path& path, const stickslip::Scene<M
         out << p[0] << ' ' << p[1] + pose.translation[2] << " 0\n";
     out << "\n\n";
   });
-  if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
+  file.place();
 }
 
 }  // namespace examples

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "record.hpp"
 
+#include "outputs.hpp"
 #include "pictures.hpp"
 
 #include <nlohmann/json.hpp>
@@ -8,10 +9,12 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
+#include <ostream>
 #include <stdexcept>
 
 namespace examples {
@@ -28,10 +31,9 @@ bool on_terminal(const Options& options) {
   return !options.quiet && isatty(STDERR_FILENO) != 0;
 }
 
-std::string short_number(double x, const char* format) {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, x);
-  return text;
+std::string fixed(double x, int digits) {
+  std::array<char, 400> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::fixed, digits).ptr};
 }
 
 nlohmann::ordered_json to_json(const Options& options, const Record& r) {
@@ -97,7 +99,8 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
 }
 
 void write_history(const std::filesystem::path& path, const Record& r) {
-  std::ofstream csv(path);
+  stickslip::io::NewFile file(path);
+  std::ostream& csv = file.stream();
   csv.precision(12);
   csv << "step,time_s,displacement_mm,force_N,dt_s,iterations,rejected,residual,nodes_in_contact,nodes_sliding,max_"
          "penetration_mm,max_slip_mm,lag,error_lag,error_time,error_penetration,error_space\n"
@@ -109,18 +112,18 @@ void write_history(const std::filesystem::path& path, const Record& r) {
         << s.contact.sliding << ',' << s.contact.max_penetration << ',' << s.contact.max_slip << ',' << s.lag << ','
         << s.errors.lag << ',' << s.errors.time << ',' << s.errors.penetration << ',' << s.errors.space << '\n';
   }
-  if (!csv.flush()) throw std::runtime_error("cannot write " + path.string());
+  file.place();
 }
 
 void draw_results(const Options& options, const Record& r) {
-  const std::string title = r.labels.name + ", " + options.friction + ", mu = " + short_number(options.mu, "%.2f");
+  const std::string title = r.labels.name + ", " + options.friction + ", mu = " + fixed(options.mu, 2);
   draw(options.output, "force",
        "set datafile separator ','\nset title '" + title + "'\nset xlabel '" + r.labels.travel +
            " [mm]'\nset ylabel '" + r.labels.force +
            " [kN]'\nset grid\nset key off\nplot 'history.csv' every ::1 using 3:($4/1000) with linespoints pt 7 ps 0.5 "
            "lw 2");
   draw(options.output, "mesh",
-       "set title '" + title + ": deformed mesh at " + short_number(r.travel_mm.back(), "%.1f") +
+       "set title '" + title + ": deformed mesh at " + fixed(r.travel_mm.back(), 1) +
            " mm'\nset view map\nset size ratio -1\nset key off\nset cblabel 'plastic strain'\nset palette defined (0 "
            "'#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\nset xlabel 'r [mm]'\nset ylabel 'z [mm]'\n"
            "set pm3d corners2color c1 border lc rgb '#404040' lw 0.4\n" +
@@ -140,35 +143,37 @@ void Record::serialize(stickslip::Archive& archive) {
   if (self_penetration_mm) penetrates.push_back(*self_penetration_mm);
   archive.any_length("history, passes through itself", penetrates);
   if (!archive.gives()) return;
+  if (time_s.size() != steps.size() + 1 || travel_mm.size() != time_s.size() || force_N.size() != time_s.size())
+    throw std::runtime_error(archive.origin + " does not fit: its histories are not of one length");
   self_penetration_mm.reset();
   if (!penetrates.empty()) self_penetration_mm = penetrates[0];
 }
 
 std::string shot_name(double travel_mm) {
-  return "mesh_" + short_number(travel_mm, "%.1f") + ".dat";
+  return "mesh_" + fixed(travel_mm, 1) + ".dat";
 }
 
 void draw(const std::filesystem::path& directory, const std::string& name, const std::string& body, int width,
           int height) {
   const auto script = directory / (name + ".gp");
-  {
-    std::ofstream out(script);
+  stickslip::io::write_file(script, [&](std::ostream& out) {
     for (const std::string kind : {"pngcairo", "svg"})
       out << "set terminal " << kind << " size " << width << ',' << height
           << " noenhanced background rgb 'white' font 'sans,12'\nset output '" << name
           << (kind == "svg" ? ".svg" : ".png") << "'\n"
           << body << "\nunset output\n";
-    if (!out.flush()) throw std::runtime_error("cannot write " + script.string());
-  }
+  });
   // The folder is reached as the working directory, so that no part of its name is read by a shell.
   const auto here = std::filesystem::current_path();
   std::filesystem::current_path(directory);
   const int status = std::system(("gnuplot " + name + ".gp > " + name + ".log 2>&1").c_str());
   std::filesystem::current_path(here);
   const std::string log = name + ".log";
-  if (status != 0)
+  if (status != 0) {
+    for (const char* torn : {".png", ".svg"}) std::filesystem::remove(directory / (name + torn));
     throw std::runtime_error("gnuplot could not draw " + (directory / name).string() +
                              "; is the package gnuplot-nox installed? Its words are in " + log);
+  }
   std::filesystem::remove(directory / log);
 }
 
@@ -182,21 +187,21 @@ void end_progress(const Options& options) {
   if (on_terminal(options)) std::fputc('\n', stderr);
 }
 
-int conclude(const Options& options, const Record& r) {
-  if (!options.json.empty()) {
-    const std::string text = to_json(options, r).dump(1) + "\n";
-    if (options.json == "-") {
-      std::cout << text;
-    } else {
-      std::ofstream out(options.json);
-      out << text;
-      if (!out.flush()) throw std::runtime_error("cannot write " + options.json);
-    }
-  }
+int conclude(const Options& options, const Record& r, Outputs& outputs) {
   if (!options.output.empty()) {
-    write_history(options.output / "history.csv", r);
-    draw_results(options, r);
+    outputs.attempt([&] { write_history(options.output / "history.csv", r); });
+    outputs.attempt([&] { draw_results(options, r); });
   }
+  if (!options.json.empty())
+    outputs.attempt([&] {
+      auto json = to_json(options, r);
+      if (!outputs.missing().empty()) json["files_missing"] = outputs.missing();
+      const std::string text = json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+      if (options.json == "-") return write_to_standard_output(text);
+      stickslip::io::NewFile file(options.json, stickslip::io::Target::any);
+      file.write(text);
+      file.place();
+    });
   if (!options.quiet && options.json != "-")
     std::printf(
         "%s %s mu %.2f %s: %d steps, %d iterations, %d rejected; %.1f mm, %.0f N; penetration %.4f mm, slip %.2f mm, "
@@ -209,8 +214,10 @@ int conclude(const Options& options, const Record& r) {
   if (!options.quiet && r.self_penetration_mm)
     std::fprintf(stderr, "%s: from %.1f mm on the body passes through itself; there is no self-contact yet\n",
                  r.labels.name.c_str(), *r.self_penetration_mm);
+  if (outputs.missing().size() > 1)
+    std::cerr << r.labels.name << ": " << outputs.missing().size() << " files could not be written\n";
   if (!r.outcome) std::cerr << r.labels.name << ": " << r.outcome.message() << '\n';
-  return r.outcome ? 0 : 1;
+  return !r.outcome ? 1 : outputs.missing().empty() ? 0 : output_missing;
 }
 
 }  // namespace examples

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "options.hpp"
+#include "outputs.hpp"
 
 #include <stickslip/base/archive.hpp>
 #include <stickslip/base/outcome.hpp>
@@ -61,7 +62,8 @@ class Clock {
 void show_progress(const Options& options, const Record& record, double fraction);
 void end_progress(const Options& options);
 
-/// Writes JSON, CSV, pictures and the one-line summary as far as they are asked for. Returns the exit code.
-int conclude(const Options& options, const Record& record);
+/// Writes JSON, CSV, pictures and the one-line summary as far as they are asked for. Returns the exit code: 0, 1 if the
+/// run failed, or output_missing.
+int conclude(const Options& options, const Record& record, Outputs& outputs);
 
 }  // namespace examples

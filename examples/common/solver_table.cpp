@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "solver_table.hpp"
 
+#include <stickslip/io/new_file.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -65,10 +68,11 @@ int print_solver_table(const Options& options, const std::vector<std::string>& s
   bool any = false, first = true;
   for (const std::string& solver : solvers) {
     int results[2], words[2];
-    if (pipe(results) != 0 || pipe(words) != 0) throw std::runtime_error("cannot make a pipe");
+    if (pipe(results) != 0 || pipe(words) != 0)
+      throw std::runtime_error("cannot make a pipe: " + stickslip::io::detail::reason(errno));
     std::cout.flush();
     const pid_t child = fork();
-    if (child < 0) throw std::runtime_error("cannot start a process");
+    if (child < 0) throw std::runtime_error("cannot start a process: " + stickslip::io::detail::reason(errno));
     if (child == 0) {
       Options o = options;
       o.solver = solver;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/assembly/stress_recovery.hpp>
+#include <stickslip/mesh/coincident_nodes.hpp>
 #include <stickslip/scene.hpp>
 #include <stickslip/solve/course.hpp>
 #include <stickslip/solve/newton.hpp>
@@ -116,6 +117,12 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
   if constexpr (takes_passes<Model>() || has_lag<Model>()) pass_start_ = problem.u_;
   if (options.space_every > 0) stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
   problem_.prepare();
+  if (const auto apart = mesh::coincident_nodes(problem_.body_.mesh()); apart.nodes > 0)
+    now_.warnings.add("coincident_nodes", "",
+                      std::to_string(apart.nodes) + " nodes of the mesh lie where another one does, nodes " +
+                          std::to_string(apart.first[0]) + " and " + std::to_string(apart.first[1]) +
+                          " (from 0) among them: what was meshed in blocks that were not joined comes apart there",
+                      0);
 }
 
 /// Passes over a step whose first one has converged, until another one would change nothing beyond the tolerance

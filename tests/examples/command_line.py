@@ -2,7 +2,9 @@
 """The benchmarks' common command line: exit codes, sentences, JSON contract."""
 
 import json
+import os
 import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
@@ -121,8 +123,64 @@ with tempfile.TemporaryDirectory() as folder:
     for name in ("pressed_block.pvd", "force.png", "mesh.svg"):
         check((folder / "files" / name).stat().st_size > 0, name)
 
-    # Output that cannot be written is named.
+    # Output that cannot be written is named with the reason, before anything is computed.
     (folder / "file").write_text("")
-    done = run("--output", str(folder / "file" / "deeper"))
-    check(done.returncode == 1 and "file" in done.stderr, done.stderr)
+
+    def told(options, stdout=subprocess.PIPE, program=pressed_block, **more):
+        """Exit code, what was said, and whether a step was taken before (the program tells its times)."""
+        done = subprocess.run([program, "--quiet", *map(str, options)], stdout=stdout, stderr=subprocess.PIPE, text=True, timeout=100, **more)
+        lines = done.stderr.splitlines()
+        words = [line for line in lines if not line[0].isdigit()]
+        return done.returncode, words, len(words) < len(lines)
+
+    deeper = folder / "file" / "deeper"
+    for options, path, reason in [
+        (["--output", deeper], deeper, "Not a directory"),
+        (["--json", deeper], deeper, "Not a directory"),
+        (["--json", folder], folder, "Is a directory"),
+        (["--json", folder / "no" / "a.json"], folder / "no" / "a.json", "No such file or directory"),
+        (["--checkpoint", deeper], deeper, "Not a directory"),
+        (["--checkpoint", folder], folder, "Is a directory"),
+        (["--checkpoint", "/dev/null"], "/dev/null", "it is no regular file"),
+    ]:
+        before = sorted(p.name for p in folder.iterdir())
+        check(told(options) == (1, [f"pressed_block: cannot write {path}: {reason}"], False), (options, told(options)))
+        check(sorted(p.name for p in folder.iterdir()) == before, list(folder.iterdir()))
+
+    # The standard output: a full disc, a pipe that nobody reads, and one that is closed.
+    with open("/dev/full", "w") as full:
+        check(told(["--json", "-"], stdout=full)[:2] == (4, ["pressed_block: cannot write to the standard output: No space left on device"]), "full")
+        for option in "--help", "--list":
+            done = subprocess.run([program, option], stdout=full, stderr=subprocess.PIPE, text=True)
+            check(done.returncode == 4 and "No space left on device" in done.stderr, (option, done))
+    read, write = os.pipe()
+    os.close(read)
+    check(told(["--json", "-"], stdout=write)[:2] == (4, ["pressed_block: cannot write to the standard output: Broken pipe"]), "pipe")
+    os.close(write)
+    check(told(["--json", "-"], preexec_fn=lambda: os.close(1)) == (1, ["pressed_block: cannot write to the standard output: Bad file descriptor"], False), "closed")
+    # What is opened first does not take its place and get what is printed.
+    files = folder / "closed"
+    check(told(["--output", files], preexec_fn=lambda: os.close(1)) == (0, [], True), "closed")
+    check(not any("N; penetration" in p.read_text(errors="replace") for p in files.iterdir()), "the summary went to a file")
+
+    # Results go to a pipe and to a device as well, and a link is to a file.
+    (folder / "link.json").symlink_to(folder / "linked.json")
+    (folder / "linked.json").write_text("old")
+    check(told(["--json", folder / "link.json"])[0] == 0 and (folder / "link.json").is_symlink(), "link")
+    check(json.loads((folder / "linked.json").read_text())["completed"], "linked")
+    done = subprocess.run([pressed_block, "--quiet", "--json", "/dev/stdout"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    check(done.returncode == 0 and json.loads(done.stdout)["completed"], done.returncode)
+    check(told(["--json", "/dev/full"])[:2] == (4, ["pressed_block: cannot write /dev/full: No space left on device"]), "device")
+
+    # A disc that is full, by the limit of the size of files: no torn file, the run goes on, and record and code say so.
+    files = folder / "full"
+    limited = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (33000, 33000))
+    code, words, ran = told(["--output", files, "--json", folder / "full.json"], preexec_fn=limited)
+    check(code == 4 and ran and words[0] == f"pressed_block: cannot write {files / 'pressed_block_0000.vtu'}: File too large", words)
+    result = json.loads((folder / "full.json").read_text())
+    missing = result["files_missing"]
+    check(result["completed"] and len(missing) > 30 and all(line.startswith("cannot write ") or "gnuplot" in line for line in missing), missing)
+    check(words[1:] == [f"pressed_block: {len(missing)} files could not be written"], words)
+    check(not list(files.glob("*.vtu")) and not list(files.glob("*partial*")) and (files / "mesh.dat").exists(), list(files.iterdir()))
+    check(told(["--output", files, "--json", folder / "full.json"])[0] == 0 and "files_missing" not in json.loads((folder / "full.json").read_text()), "room again")
 print(f"{checks} passed, 0 failed")

@@ -43,3 +43,6 @@ for options in (["--refine"], ["--refine", "0"], ["--steps", "many"], ["--law", 
     refused = run(*options)
     assert refused.returncode == 2 and "usage" in refused.stderr and not refused.stdout, options
 assert run("--help").returncode == 0
+with open("/dev/full", "w") as full:
+    lost = subprocess.run([program, "--steps", "20"], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert lost.returncode == 1 and "could not be written" in lost.stderr, lost

@@ -71,7 +71,7 @@ def killed_at_random(folder):
             reached = 0
             if kills >= KILLS:
                 break
-    leftovers = {p.name for p in folder.iterdir()} - {"alone.json", "run.restart.partial"}
+    leftovers = {p.name for p in folder.iterdir()} - {"alone.json"}
     assert not leftovers, leftovers
     return kills, lost, finished
 
@@ -82,7 +82,7 @@ def stopped_by_a_signal(folder):
     scene = ["--refine", "4", "--travel", "20"]
     common = [punch, "--friction", "extrapolated-quasi-coulomb", *scene]
     files = {}
-    for name, stops in ("alone", []), ("stopped", [signal.SIGTERM, signal.SIGINT]):
+    for name, stops in ("alone", []), ("stopped", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP]):
         out = folder / name
         with_output = [*common, "--output", out, "--json", folder / f"{name}.json"]
         restart = []
@@ -116,9 +116,45 @@ def stopped_by_a_signal(folder):
     says("is cut off: it has 5000 bytes of", file=cut)
     says("is not a restart file of stickslip", file=folder / "alone.json")
     said = refused(*common, "--restart", folder / "none")
-    assert said == f"osu_punch: cannot read {folder / 'none'}", said
+    assert said == f"osu_punch: cannot read {folder / 'none'}: No such file or directory", said
     said = refused(*common, "--checkpoint", folder / "no" / "file", "--checkpoint-every", "1")
     assert said == f"osu_punch: cannot write {folder / 'no' / 'file'}: No such file or directory", said
+
+
+def signals_that_are_ignored(folder):
+    """nohup ignores the end of the terminal, and so does what it starts."""
+    run = subprocess.Popen([pressed_block, "--quiet", "--checkpoint", folder / "hup.restart", "--json", folder / "hup.json"], stderr=subprocess.PIPE, text=True,
+                           preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    run.stderr.readline()
+    run.send_signal(signal.SIGHUP)
+    run.communicate(timeout=60)
+    assert run.returncode == 0 and result(folder / "hup.json")["completed"], run.returncode
+
+
+def one_run_at_a_time(folder):
+    """The second run on a folder or a restart file ends at once, a dead run's is taken over, and what lies about under
+    the names of unfinished files is not followed."""
+    kept, out, victim = folder / "one.restart", folder / "one", folder / "victim"
+    victim.write_text("untouched")
+    (folder / "one.restart.partial").symlink_to(victim)
+    first = subprocess.Popen([pressed_block, "--refine", "4", "--quiet", "--output", out, "--checkpoint", kept, "--checkpoint-every", "1"],
+                             stderr=subprocess.PIPE, text=True)
+    for _ in range(3):
+        first.stderr.readline()
+    said = refused(pressed_block, "--output", out)
+    assert said == f"pressed_block: {out} is in use by another run, process {first.pid} ({out / 'stickslip.lock'})", said
+    said = refused(pressed_block, "--checkpoint", kept)
+    assert said == f"pressed_block: {kept} is in use by another run, process {first.pid} ({kept}.lock)", said
+    assert first.poll() is None
+    first.kill()
+    first.communicate()
+    assert pathlib.Path(f"{kept}.lock").exists()
+    (folder / "one.restart.partial-0123456789abcdef").write_text("left by a run that was killed")
+    done = subprocess.run([pressed_block, "--quiet", "--output", out, "--checkpoint", kept], stderr=subprocess.PIPE, text=True, timeout=100)
+    assert done.returncode == 0, done.stderr
+    names = {p.name for p in folder.iterdir() if p.name.startswith("one")}
+    assert names == {"one", "one.restart", "one.restart.partial"} and not list(out.glob("*lock")) + list(out.glob("*partial*")), names
+    assert victim.read_text() == "untouched" and kept.stat().st_size > 1000
 
 
 with tempfile.TemporaryDirectory() as name:
@@ -129,4 +165,6 @@ with tempfile.TemporaryDirectory() as name:
     print(f"{kills} kills, {len(lost)} restarts that went on, {finished} runs that ended; steps lost: mean {sum(lost) / len(lost):.1f}, "
           f"most {max(lost)}, with a file every {EVERY}; {time.monotonic() - begin:.1f} s")
     stopped_by_a_signal(pathlib.Path(name))
+    signals_that_are_ignored(pathlib.Path(name))
+    one_run_at_a_time(pathlib.Path(name))
     print(f"signals and refusals: {time.monotonic() - begin:.1f} s in all")

@@ -8,6 +8,7 @@
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/material/neo_hookean.hpp>
+#include <stickslip/mesh/coincident_nodes.hpp>
 
 #include <cmath>
 #include <set>
@@ -31,6 +32,7 @@ void read(std::string_view bytes) {
         for (const auto& cell : mesh.cells)
           for (const Index n : cell) check(n), of_cells.insert(n);
         fuzz::require(of_cells.size() == mesh.nodes.size(), "each node belongs to a cell");
+        fuzz::require(mesh::coincident_nodes(mesh).nodes < mesh.node_count(), "a node lies where it lies");
         for (const auto& [name, side] : mesh.sides) {
           fuzz::require(!side.nodes.empty() && !name.empty(), "sides have a name and nodes");
           std::set<Index> once;

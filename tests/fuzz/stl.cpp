@@ -30,7 +30,9 @@ void use(const rigid::Triangles& surface) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  fuzz::reader<std::runtime_error>(
-      bytes, "input.stl", [](std::istream& in, const std::string& name) { return io::read_stl(in, name); }, use);
+  for (const auto outside : {io::Outside::agreed, io::Outside::normals})
+    fuzz::reader<std::runtime_error>(
+        bytes, "input.stl",
+        [outside](std::istream& in, const std::string& name) { return io::read_stl(in, name, 1e-6, outside); }, use);
   return 0;
 }

@@ -11,6 +11,7 @@
 #include <stickslip/inertia/generalized_alpha.hpp>
 #include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/io/checkpoint.hpp>
+#include <stickslip/io/vtu.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
@@ -33,6 +34,8 @@
 #include <random>
 #include <string>
 #include <vector>
+
+#include "locale.hpp"
 
 namespace {
 
@@ -382,11 +385,129 @@ TEST_CASE("damaged files are refused, and the problem is left alone") {
   write(s.bad, framed(whole.substr(40), 7));
   refused(*s.problem, s.march, s.bad,
           "is of version 7 of the format, this program reads version " + std::to_string(io::checkpoint_version));
-  for (const std::string& payload :
-       {std::string(), "\x16" + std::string(7, '\0') + "another kind of archive", whole.substr(40, 1000)}) {
+  for (const std::string& payload : {std::string(), "\x16" + std::string(7, '\0') + "another kind of archive",
+                                     whole.substr(40, 1000), whole.substr(40) + "x"}) {
     write(s.bad, framed(payload, io::checkpoint_version));
-    refused(*s.problem, s.march, s.bad, "cannot be read by this program's Boost.Serialization");
+    refused(*s.problem, s.march, s.bad, "is damaged: what it claims of its sections is not what it has");
   }
+  // Counts that lie, behind checksums that are right: of sections, and of the first one's name, size and values.
+  for (const std::size_t at : {0u, 8u, 16u, 24u})
+    for (const std::uint64_t lie : {std::uint64_t(1) << 40, std::uint64_t(1) << 63, ~std::uint64_t(0)}) {
+      std::string payload = whole.substr(40);
+      std::memcpy(payload.data() + at, &lie, sizeof(lie));
+      write(s.bad, framed(payload, io::checkpoint_version));
+      refused(*s.problem, s.march, s.bad, "is damaged: what it claims of its sections is not what it has");
+    }
+  // The product of size and count is that of the bytes, but only beyond 64 bits.
+  std::string wrapped = whole.substr(40);
+  for (const std::size_t at : {16u, 24u}) {
+    const std::uint64_t half = std::uint64_t(1) << 32;
+    std::memcpy(wrapped.data() + at, &half, sizeof(half));
+  }
+  write(s.bad, framed(wrapped, io::checkpoint_version));
+  refused(*s.problem, s.march, s.bad, "is damaged: what it claims of its sections is not what it has");
+  // What a section of another kind is called is shown on one line, and not for ever.
+  Archive foreign;
+  Real value = 1;
+  foreign("kine\nmatics" + std::string(5000, 'x'), value);
+  io::write_checkpoint(s.bad, foreign);
+  refused(*s.problem, s.march, s.bad, "it has \"kine?maticsxxx");
+}
+
+TEST_CASE("the checksum is that of zlib") {
+  CHECK(io::detail::crc("123456789", 9) == 0xcbf43926U);  // the check value of CRC-32/ISO-HDLC
+  CHECK(io::detail::crc("", 0) == 0);
+}
+
+TEST_CASE("a restart file takes no other one's place") {
+  Saved s;
+  const auto link = s.folder.path / "link", device = s.folder.path / "device";
+  fs::create_symlink("/dev/null", device);
+  CHECK_THROWS_WITH_AS(io::save(device, s.march),
+                       ("cannot write " + device.string() + ": it is no regular file").c_str(), std::runtime_error);
+  CHECK_THROWS_WITH_AS(io::save("/dev/null", s.march), "cannot write /dev/null: it is no regular file",
+                       std::runtime_error);
+  CHECK(fs::is_character_file("/dev/null"));
+  const std::string old = read(s.file);
+  fs::create_symlink(s.file, link);
+  io::save(link, s.march);
+  CHECK(fs::is_symlink(link));
+  CHECK(read(s.file) != old);
+}
+
+TEST_CASE("files for ParaView are XML with decimal points, and whole") {
+  Saved s;
+  auto large = scene<Plane>(600);  // 1803 nodes: there are thousands to be parted
+  const auto points = s.folder.path / "a < b & \"c\"_0000.vtu", collection = s.folder.path / "a < b & \"c\".pvd";
+  {
+    const WithCommas commas;
+    io::VtuSeries series(s.folder.path, "a < b & \"c\"");
+    series.write(*large);
+    s.march.finish();
+    io::VtuSeries times(s.folder.path, "times");
+    times.write(*s.problem);
+    io::save(s.bad, s.march);
+    io::load(s.bad, s.march);
+  }
+  CHECK(read(points).find("NumberOfPoints=\"1803\" NumberOfCells=\"1200\"") != std::string::npos);
+  CHECK(read(collection).find("file=\"a &lt; b &amp; &quot;c&quot;_0000.vtu\"") != std::string::npos);
+  CHECK(read(s.folder.path / "times.pvd").find("timestep=\"1\"") != std::string::npos);
+  {
+    const WithCommas commas;
+    auto half = scene<Plane>();
+    auto march = half->march({.end = 0.5, .steps = 25});
+    march.finish();
+    io::VtuSeries times(s.folder.path, "times");
+    times.write(*half);
+  }
+  CHECK(read(s.folder.path / "times.pvd").find("timestep=\"0.5\"") != std::string::npos);
+  for (const std::string name : {"a/b", "a\x01", "\xff", "\xc0\x80", "\xed\xa0\x80"})
+    CHECK_THROWS_AS(io::VtuSeries(s.folder.path, name), std::invalid_argument);
+  CHECK_NOTHROW(io::VtuSeries(s.folder.path, "Ofenrohr \xc3\x9f \xe2\x82\xac \xf0\x9f\x98\x80"));
+  CHECK_THROWS_WITH_AS(io::VtuSeries(s.file / "deeper", "a"),
+                       ("cannot write " + (s.file / "deeper").string() + ": Not a directory").c_str(),
+                       std::runtime_error);
+
+  // A disc that is full leaves no torn file, and the old one.
+  const std::string old = read(points);
+  const auto files = std::distance(fs::directory_iterator(s.folder.path), {});
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{.rlim_cur = 1000, .rlim_max = before.rlim_max};
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
+  std::string said;
+  try {
+    io::write_vtu(points, *s.problem);
+  } catch (const std::runtime_error& error) {
+    said = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  CHECK(said == "cannot write " + points.string() + ": File too large");
+  CHECK(read(points) == old);
+  CHECK(std::distance(fs::directory_iterator(s.folder.path), {}) == files);
+}
+
+TEST_CASE("a mesh of blocks that were not joined is warned of") {
+  Problem<Plane>::Parameters p;
+  p.body = mesh::rectangle({.size = {2, 1}, .cells = {2, 1}});
+  p.material = {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 50}};
+  const auto march_of = [&] {
+    auto problem = std::make_unique<Problem<Plane>>(p);
+    return problem->march(equal).warnings();
+  };
+  CHECK(march_of().empty());
+  for (const Index n : {2, 3}) {
+    p.body.nodes.push_back(p.body.nodes[static_cast<std::size_t>(n)]);
+    for (Index& of_cell : p.body.cells[1])
+      if (of_cell == n) of_cell = p.body.node_count() - 1;
+  }
+  const auto warnings = march_of();
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].name == "coincident_nodes");
+  CHECK(warnings[0].step == 0);
+  CHECK(warnings[0].text.starts_with("2 nodes of the mesh lie where another one does, nodes "));
 }
 
 TEST_CASE("files of another run are refused") {

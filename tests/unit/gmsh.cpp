@@ -2,6 +2,7 @@
 // Gmsh files: both formats give the same mesh, sides have the body where it belongs, and what is wrong is said, with
 // the file and the line.
 #include <stickslip/io/gmsh.hpp>
+#include <stickslip/mesh/coincident_nodes.hpp>
 
 #include <doctest/doctest.h>
 
@@ -200,8 +201,122 @@ TEST_CASE("counts that lie cost nothing") {
         "a.msh, line 18: the number \"9223372036854775808\" is out of range");
 }
 
+// What Gmsh makes of the plate when it is parted in two between its cells: the curves of the outline lie in entities of
+// their own, which repeat the groups of their parents, and there are new ones on the border, which repeat those of the
+// surface.
+const std::string parted_entities =
+    "$Entities\n1 3 1 0\n1 0 0 0 1 5\n1 0 0 0 2 0 0 1 -1 2 1 -2\n2 2 0 0 2 1 0 2 1 8 0\n3 0 0 0 0 1 0 0 0\n1 0 0 0 2 1 "
+    "0 1 3 0\n$EndEntities\n";
+std::string parted(const std::string& ghosts) {
+  return head + names + parted_entities + "$PartitionedEntities\n2\n" + ghosts +
+         "\n2 5 2 0\n"
+         "7 0 1 1 1 0 0 0 1 5\n8 1 1 2 1 2 1 0 0 1 1\n"  // a corner, and one on the bottom that the border ends at
+         "11 1 1 1 1 0 0 0 1 0 0 1 -1 2 7 -8\n12 1 1 1 2 1 0 0 2 0 0 1 -1 2 8 -8\n13 1 2 1 2 2 0 0 2 1 0 2 1 8 0\n"
+         "14 1 3 1 1 0 0 0 0 1 0 0 0\n15 2 1 2 1 2 1 0 0 1 1 0 1 3 2 8 -8\n"
+         "21 2 1 1 1 0 0 0 1 1 0 1 3 0\n22 2 1 1 2 1 0 0 2 1 0 1 3 0\n$EndPartitionedEntities\n" +
+         "$Nodes\n2 7 1 40\n0 7 0 1\n10\n0 0 0\n2 21 1 6\n20\n30\n11\n21\n31\n40\n1 0 0 .5 .5\n2 0 0 .5 .5\n0 1 0 .5 "
+         ".5\n1 1 0 .5 .5\n2 1 0 .5 .5\n9 9 9 .5 .5\n$EndNodes\n$GhostElements\n1\n6 1 1 2\n$EndGhostElements\n"
+         "$Elements\n9 9 1 9\n0 7 15 1\n1 10\n0 8 15 1\n8 20\n1 11 1 1\n2 20 10\n1 12 1 1\n3 20 30\n1 13 1 1\n4 30 "
+         "31\n1 14 1 1\n5 11 10\n1 15 1 1\n9 20 21\n2 21 3 1\n6 10 20 21 11\n2 22 3 1\n7 20 21 31 30\n$EndElements\n";
+}
+
+TEST_CASE("a partitioned mesh is read as the whole one, with or without ghost cells") {
+  const Mesh<2, 4> whole = read<2>(plate);
+  for (const std::string ghosts : {"0", "2\n5 1\n6 2"}) {
+    const Mesh<2, 4> m = read<2>(parted(ghosts));
+    CHECK(m.nodes == whole.nodes);
+    CHECK(m.cells == whole.cells);
+    REQUIRE(m.sides.size() == whole.sides.size());
+    for (const auto& side : whole.sides) {
+      INFO(side.first);
+      CHECK(m.side(side.first).facets == side.second.facets);
+      CHECK(m.side(side.first).nodes == side.second.nodes);
+    }
+  }
+  // Format 2.2 tells of partitions behind the entity.
+  std::string v2 = plate_v2;
+  for (const char* line : {"7 3 2 3 1 ", "8 3 2 3 1 "}) v2 = with(v2, line, std::string(line, 4) + "5 3 1 2 1 -2 ");
+  CHECK(read<2>(v2).cells == whole.cells);
+  CHECK(read<2>(v2).side("bottom").facets == whole.side("bottom").facets);
+}
+
+TEST_CASE("no side is lost in silence") {
+  CHECK(
+      complaint(with(plate, "\"bottom\"", "\"bottom\"\n1 6 \"top\"")
+                    .replace(plate.find("$PhysicalNames\n2"), 16, "$PhysicalNames\n3")) ==
+      "a.msh: the group \"top\" has a name but no elements; format 2.2 loses groups with Mesh.SaveAll = 1, and a mesh "
+      "that is saved in pieces has in each file some");
+  // An entity that the file does not list.
+  CHECK(complaint(with(plate, "1 3 1 1\n5 11 10", "1 4 1 1\n5 11 10")) ==
+        "a.msh, line 46: a line of the curve 4, which the file does not list, so that its groups are lost");
+}
+
+TEST_CASE("parameters of nodes are passed over") {
+  const std::string parametric = with(with(plate_v2, "$Nodes", "$ParametricNodes"), "$EndNodes", "$EndParametricNodes");
+  std::string text = parametric;
+  for (const auto& [old, fresh] :
+       std::vector<std::pair<std::string, std::string>>{{"10 0 0 0", "10 0 0 0 0 1"},
+                                                        {"20 1 0 0", "20 1 0 0 1 1 0.5"},
+                                                        {"30 2 0 0", "30 2 0 0 0 2"},
+                                                        {"11 0 1 0", "11 0 1 0 2 1 0 -1e-3"},
+                                                        {"21 1 1 0", "21 1 1 0 2 1 0.5 1"},
+                                                        {"31 2 1 0", "31 2 1 0 1 2 1"},
+                                                        {"40 9 9 9", "40 9 9 9 3 1"}})  // volumes have no parameters
+    text = with(text, "\n" + old + "\n", "\n" + fresh + "\n");
+  CHECK(read<2>(text).nodes == read<2>(plate_v2).nodes);
+  CHECK(read<2>(text).cells == read<2>(plate_v2).cells);
+  CHECK(complaint(parametric) == "a.msh, line 12: the number \"20\" is out of range");
+  CHECK(complaint(with(plate_v2, "$Elements", "$ParametricNodes\n0\n$EndParametricNodes\n$Elements")) ==
+        "a.msh, line 20: the section $ParametricNodes is there twice");
+  // Older programs call the section so in format 4.1 too.
+  CHECK(read<2>(with(with(plate, "$Nodes", "$ParametricNodes"), "$EndNodes", "$EndParametricNodes")).nodes ==
+        read<2>(plate).nodes);
+}
+
+TEST_CASE("a cell of two groups is one cell") {
+  // In format 4.1 the entity has both, in format 2.2 its cells are there twice, one of them perhaps turned.
+  const std::string both = with(plate, "0 1 3 0\n$EndEntities", "0 2 3 4 0\n$EndEntities");
+  const std::string twice = with(with(plate_v2, "$Elements\n8", "$Elements\n10"), "8 3 2 3 1 20 21 31 30\n",
+                                 "8 3 2 4 1 10 20 21 11\n9 3 2 3 1 20 21 31 30\n10 3 2 4 1 20 30 31 21\n");
+  for (const std::string* text : {&both, &twice}) {
+    CHECK(read<2>(*text).cells == read<2>(plate).cells);
+    CHECK(read<2>(*text).side("bottom").facets == read<2>(plate).side("bottom").facets);
+  }
+  // The same group, or another entity: the cell is there twice.
+  CHECK(complaint(with(twice, "8 3 2 4 1", "8 3 2 3 1")) ==
+        "a.msh, line 28: the cell and that of line 27 lie on the same side of their common edge");
+  CHECK(complaint(with(twice, "8 3 2 4 1", "8 3 2 4 2")) ==
+        "a.msh, line 28: the cell and that of line 27 lie on the same side of their common edge");
+}
+
+TEST_CASE("a mark of UTF-8 at the beginning is no text") {
+  CHECK(read<2>("\xef\xbb\xbf" + plate).cells == read<2>(plate).cells);
+}
+
+TEST_CASE("nodes at one place are found") {
+  Mesh<2, 4> blocks = read<2>(plate);
+  CHECK(mesh::coincident_nodes(blocks).nodes == 0);
+  // The right cell comes apart: nodes of its own on the common edge.
+  for (const Index n : {1, 4}) {
+    blocks.nodes.push_back(blocks.nodes[static_cast<std::size_t>(n)] + Vec<Real, 2>(1e-10, -1e-10));
+    for (Index& of_cell : blocks.cells[1])
+      if (of_cell == n) of_cell = blocks.node_count() - 1;
+  }
+  CHECK(mesh::coincident_nodes(blocks).nodes == 2);
+  const auto first = mesh::coincident_nodes(blocks).first;
+  CHECK((first == std::array<Index, 2>{1, 6} || first == std::array<Index, 2>{4, 7}));
+  blocks.nodes[6][0] += 1e-8;
+  CHECK(mesh::coincident_nodes(blocks).nodes == 1);
+  for (const int n : {1, 3, 17}) {
+    CHECK(mesh::coincident_nodes(mesh::rectangle({.size = {1, 1}, .cells = {n, 2 * n}})).nodes == 0);
+    CHECK(mesh::coincident_nodes(mesh::box({.origin = {1e6, 0, 0}, .size = {1, 2, 3}, .cells = {n, n, n}})).nodes == 0);
+  }
+}
+
 TEST_CASE("files that cannot be opened") {
-  CHECK_THROWS_WITH_AS((void)io::read_gmsh<2>("/no/such/file.msh"), "cannot read /no/such/file.msh",
+  CHECK_THROWS_WITH_AS((void)io::read_gmsh<2>("/no/such/file.msh"),
+                       "cannot read /no/such/file.msh: No such file or directory", std::runtime_error);
+  CHECK_THROWS_WITH_AS((void)io::read_gmsh<2>("/dev/null"), "cannot read /dev/null: it is no regular file",
                        std::runtime_error);
 }
 

@@ -72,7 +72,7 @@ class Archive {
       mode_ = mode;
       next_ = 0;
       (parts.serialize(*this), ...);
-      if (next_ < sections.size()) fail("has \"" + sections[next_].name + "\", which this run has not");
+      if (next_ < sections.size()) fail("has \"" + shown(sections[next_].name) + "\", which this run has not");
     }
     mode_ = Mode::taking;
   }
@@ -110,7 +110,7 @@ class Archive {
     if (mode_ == Mode::taking) return exchange(name, text.data(), text.size(), 1);
     const Section& section = expected(name, 1);
     const std::string_view there(section.bytes.data(), section.bytes.size());
-    if (there != text) fail("its " + name + " is \"" + std::string(there) + "\", here it is \"" + text + "\"");
+    if (there != text) fail("its " + name + " is \"" + shown(there) + "\", here it is \"" + shown(text) + "\"");
     ++next_;
   }
 
@@ -120,6 +120,14 @@ class Archive {
  private:
   enum class Mode { taking, comparing, giving };
 
+  // What a file has, as a sentence may quote it: on one line, and not for ever.
+  static std::string shown(std::string_view bytes) {
+    constexpr std::size_t longest = 300;
+    std::string text(bytes.substr(0, longest));
+    for (char& c : text)
+      if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+    return bytes.size() > longest ? text + "..." : text;
+  }
   [[noreturn]] void fail(const std::string& what) {
     mode_ = Mode::taking;
     throw std::runtime_error(origin + " does not fit: " + what);
@@ -127,7 +135,7 @@ class Archive {
   const Section& expected(const std::string& name, std::size_t size) {
     if (next_ == sections.size()) fail("it lacks \"" + name + "\"");
     const Section& section = sections[next_];
-    if (section.name != name) fail("it has \"" + section.name + "\" where this run has \"" + name + "\"");
+    if (section.name != name) fail("it has \"" + shown(section.name) + "\" where this run has \"" + name + "\"");
     if (section.size != size || section.bytes.size() / size != section.count || section.bytes.size() % size != 0)
       fail("its \"" + name + "\" is of values of " + std::to_string(section.size) + " bytes, this run's of " +
            std::to_string(size));

@@ -2,48 +2,26 @@
 #pragma once
 
 #include <stickslip/base/archive.hpp>
+#include <stickslip/io/new_file.hpp>
 #include <stickslip/io/text.hpp>
 
-#include <boost/archive/binary_iarchive.hpp>
-#include <boost/archive/binary_oarchive.hpp>
-#include <boost/crc.hpp>
-#include <boost/serialization/string.hpp>
-#include <boost/serialization/tracking.hpp>
-#include <boost/serialization/vector.hpp>
-#include <boost/serialization/version.hpp>
-
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <bit>
-#include <cerrno>
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
-#include <exception>
 #include <filesystem>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
+#include <vector>
 
-namespace boost::serialization {
-template <class BoostArchive>
-void serialize(BoostArchive& archive, stickslip::Section& section, unsigned) {
-  archive& section.name& section.size& section.count& section.bytes;
-}
-}  // namespace boost::serialization
-BOOST_CLASS_VERSION(stickslip::Section, 1)
-BOOST_CLASS_TRACKING(stickslip::Section, boost::serialization::track_never)
-
-/// Restart files: a frame of 40 bytes around a binary archive of Boost.Serialization (docs/checkpoints.md). Link
-/// stickslip::checkpoint.
+/// Restart files: a frame of 40 bytes around the sections of an archive (docs/checkpoints.md).
 namespace stickslip::io {
 
-/// Of the format. It counts up whenever the sections of a march or what they mean change; other versions are refused.
-inline constexpr std::uint32_t checkpoint_version = 2;
+/// Of the format. It counts up whenever the layout of the file, the sections of a march or what they mean change; other
+/// versions are refused.
+inline constexpr std::uint32_t checkpoint_version = 3;
 
 namespace detail {
 
@@ -61,91 +39,99 @@ struct CheckpointFrame {
 static_assert(sizeof(CheckpointFrame) == 40);
 inline constexpr std::uint32_t this_byte_order = 0x01020304;
 
+// CRC-32 of zlib: polynomial 0xedb88320, reflected.
 inline std::uint32_t crc(const void* bytes, std::size_t count) {
-  boost::crc_32_type sum;
-  sum.process_bytes(bytes, count);
-  return sum.checksum();
+  static constexpr auto table = [] {
+    std::array<std::uint32_t, 256> values{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      std::uint32_t value = i;
+      for (int bit = 0; bit < 8; ++bit) value = (value & 1) != 0 ? value >> 1 ^ 0xedb88320U : value >> 1;
+      values[i] = value;
+    }
+    return values;
+  }();
+  std::uint32_t sum = 0xffffffffU;
+  const auto* at = static_cast<const unsigned char*>(bytes);
+  for (std::size_t k = 0; k < count; ++k) sum = table[(sum ^ at[k]) & 0xffU] ^ sum >> 8;
+  return ~sum;
 }
 
-/// A file that is being written, under another name until it is whole. What goes wrong is thrown as one sentence with
-/// the final name.
-class NewFile {
- public:
-  explicit NewFile(std::filesystem::path path) : path_(std::move(path)), partial_(path_) {
-    partial_ += ".partial";
-    file_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file_ < 0) fail();
+inline void put(std::string& bytes, std::uint64_t value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+inline std::string pack(const std::vector<Section>& sections) {
+  std::string bytes;
+  put(bytes, sections.size());
+  for (const Section& s : sections) {
+    for (const std::uint64_t value : {std::uint64_t(s.name.size()), s.size, s.count}) put(bytes, value);
+    bytes.append(s.name).append(s.bytes.data(), s.bytes.size());
   }
-  NewFile(const NewFile&) = delete;
-  NewFile& operator=(const NewFile&) = delete;
-  ~NewFile() {
-    if (file_ >= 0) ::close(file_);
-    if (!placed_) ::unlink(partial_.c_str());
-  }
+  return bytes;
+}
 
-  void write(const char* bytes, std::size_t count) {
-    while (count > 0) {
-      const ssize_t written = ::write(file_, bytes, count);
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail();
-      bytes += written;
-      count -= static_cast<std::size_t>(written);
+// Sections, out of the bytes of an archive. No count in them is believed before there are bytes for it.
+class Unpacking {
+ public:
+  explicit Unpacking(std::string_view bytes) : bytes_(bytes) {}
+
+  // False if the bytes are no archive.
+  bool read(std::vector<Section>& sections) {
+    std::uint64_t count = 0;
+    if (!take(count) || count > bytes_.size() / (3 * sizeof(count))) return false;
+    sections.reserve(static_cast<std::size_t>(count));
+    for (std::uint64_t k = 0; k < count; ++k) {
+      std::uint64_t name = 0;
+      Section s;
+      if (!take(name) || !take(s.size) || !take(s.count) || name > bytes_.size()) return false;
+      s.name = next(static_cast<std::size_t>(name));
+      if (s.size == 0 ? s.count != 0 : s.count > bytes_.size() / s.size) return false;
+      const std::string_view values = next(static_cast<std::size_t>(s.size * s.count));
+      s.bytes.assign(values.begin(), values.end());
+      sections.push_back(std::move(s));
     }
-  }
-  /// Puts it in the place of the old one, which stays whole until then whatever happens.
-  void place() {
-    if (!flushed(file_)) fail();
-    const int file = std::exchange(file_, -1);
-    if (::close(file) != 0) fail();
-    if (std::rename(partial_.c_str(), path_.c_str()) != 0) fail();
-    placed_ = true;
-    // The new name as well should outlive a loss of power; some file systems cannot be asked for that.
-    const auto folder = path_.has_parent_path() ? path_.parent_path() : std::filesystem::path(".");
-    if (const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); handle >= 0) {
-      (void)flushed(handle);
-      ::close(handle);
-    }
+    return bytes_.empty();
   }
 
  private:
-  static bool flushed(int file) {
-    int result = 0;
-    while ((result = ::fsync(file)) != 0 && errno == EINTR) {
-    }
-    return result == 0;
+  bool take(std::uint64_t& value) {
+    if (bytes_.size() < sizeof(value)) return false;
+    std::memcpy(&value, bytes_.data(), sizeof(value));
+    bytes_.remove_prefix(sizeof(value));
+    return true;
   }
-  [[noreturn]] void fail() const {
-    throw std::runtime_error("cannot write " + path_.string() + ": " + std::generic_category().message(errno));
+  std::string_view next(std::size_t count) {
+    const std::string_view taken = bytes_.substr(0, count);
+    bytes_.remove_prefix(count);
+    return taken;
   }
-
-  std::filesystem::path path_, partial_;
-  int file_ = -1;
-  bool placed_ = false;
+  std::string_view bytes_;
 };
+
+// The bytes of a file around those of an archive.
+inline std::string framed(std::string_view payload) {
+  CheckpointFrame frame;
+  frame.version = checkpoint_version;
+  frame.byte_order = this_byte_order;
+  frame.length = payload.size();
+  frame.checksum = crc(payload.data(), payload.size());
+  std::memcpy(frame.magic, checkpoint_magic.data(), sizeof(frame.magic));
+  frame.frame_check = crc(&frame, offsetof(CheckpointFrame, frame_check));
+  return std::string(reinterpret_cast<const char*>(&frame), sizeof(frame)).append(payload);
+}
 
 }  // namespace detail
 
-/// Writes a state to a file: to FILE.partial, flushed to the disc and renamed, so that at every moment FILE is the old
-/// one or the new one, whole. Throws std::runtime_error, naming the file, when it cannot be written.
+/// Writes a state to a file: beside it, flushed to the disc and renamed, so that at every moment FILE is the old one or
+/// the new one, whole (NewFile). Throws std::runtime_error, naming the file, when it cannot be written or is a device,
+/// say.
 inline void write_checkpoint(const std::filesystem::path& path, const Archive& archive) {
-  std::ostringstream out;
-  boost::archive::binary_oarchive(out) << archive.sections;
-  const std::string_view payload = out.view();
-  detail::CheckpointFrame frame;
-  frame.version = checkpoint_version;
-  frame.byte_order = detail::this_byte_order;
-  frame.length = payload.size();
-  frame.checksum = detail::crc(payload.data(), payload.size());
-  std::memcpy(frame.magic, detail::checkpoint_magic.data(), sizeof(frame.magic));
-  frame.frame_check = detail::crc(&frame, offsetof(detail::CheckpointFrame, frame_check));
-  detail::NewFile file(path);
-  file.write(reinterpret_cast<const char*>(&frame), sizeof(frame));
-  file.write(payload.data(), payload.size());
-  file.place();
+  NewFile file(path);
+  file.write(detail::framed(detail::pack(archive.sections)));
+  file.place(true);
 }
 
 /// Reads the bytes of a file that `write_checkpoint` wrote. Throws std::runtime_error, one sentence that begins with
-/// `name`, for anything else and for what has been damaged.
+/// `name`, for anything else and for what has been damaged. Needs memory in proportion to the file.
 inline Archive read_checkpoint(std::string_view bytes, const std::string& name) {
   const auto refuse = [&](const std::string& what) { throw std::runtime_error(name + " " + what); };
   const std::string_view magic = detail::checkpoint_magic;
@@ -161,6 +147,7 @@ inline Archive read_checkpoint(std::string_view bytes, const std::string& name) 
   if (frame.version != checkpoint_version)
     refuse("is of version " + std::to_string(frame.version) + " of the format, this program reads version " +
            std::to_string(checkpoint_version));
+  if (frame.byte_order != detail::this_byte_order) refuse("is damaged: its byte order is none");
   const std::string_view payload = bytes.substr(sizeof(frame));
   if (payload.size() < frame.length)
     refuse("is cut off: it has " + std::to_string(bytes.size()) + " bytes of " +
@@ -170,12 +157,8 @@ inline Archive read_checkpoint(std::string_view bytes, const std::string& name) 
   if (frame.checksum != detail::crc(payload.data(), payload.size())) refuse("is damaged: its checksum is wrong");
   Archive archive;
   archive.origin = name;
-  try {
-    std::istringstream in{std::string(payload)};
-    boost::archive::binary_iarchive(in) >> archive.sections;
-  } catch (const std::exception& error) {  // of another version of Boost, say
-    refuse(std::string("cannot be read by this program's Boost.Serialization: ") + error.what());
-  }
+  if (!detail::Unpacking(payload).read(archive.sections))
+    refuse("is damaged: what it claims of its sections is not what it has");
   return archive;
 }
 inline Archive read_checkpoint(const std::filesystem::path& path) {

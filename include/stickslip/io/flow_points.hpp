@@ -56,8 +56,7 @@ inline bool names_columns(const CsvCells& cells) {
 }
 
 inline std::vector<FlowPoint> read_flow_points(std::string_view bytes, const std::string& name) {
-  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);  // spreadsheets mark UTF-8 so
-  Text text(name, bytes);
+  Text text(name, without_mark(bytes));
   std::vector<FlowPoint> points;
   std::vector<std::size_t> lines;
   bool first = true;

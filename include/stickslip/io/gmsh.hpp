@@ -51,9 +51,10 @@ struct GmshFile {
   };
   struct Element {
     const GmshType* type;
-    Tag entity;  // format 2.2: the physical group, which is all that the file tells
+    Tag entity;  // format 2.2: the physical group
     std::array<Tag, 8> nodes;
     std::size_t line;
+    Tag elementary;  // format 2.2: the entity; format 4.1: the same as `entity`
   };
   using Key = std::pair<int, Tag>;  // dimension, number
 
@@ -61,11 +62,12 @@ struct GmshFile {
   std::vector<Element> elements;
   std::map<Key, std::vector<Tag>> groups;  // of an entity
   std::map<Key, std::string> names;        // of a group
+  std::set<Key> entities;                  // format 4.1: all that there are
 };
 
 class GmshParser : public Text {
  public:
-  using Text::Text;
+  GmshParser(std::string name, std::string_view bytes) : Text(std::move(name), without_mark(bytes)) {}
 
   GmshFile read() {
     for (std::string_view section = word(); !section.empty(); section = word()) {
@@ -77,16 +79,19 @@ class GmshParser : public Text {
       else if (section == "$PhysicalNames")
         names();
       else if (section == "$Entities")
-        entities();
-      else if (section == "$Nodes")
-        version_ == Version::v2 ? nodes_v2() : nodes();
+        entities(false);
+      else if (section == "$PartitionedEntities")
+        entities(true);
+      else if (section == "$Nodes" || section == "$ParametricNodes")
+        version_ == Version::v2 ? nodes_v2(section == "$ParametricNodes") : nodes();
       else if (section == "$Elements")
         version_ == Version::v2 ? elements_v2() : elements();
       else {
         skip(section);
         continue;
       }
-      if (!seen_.insert(std::string(section)).second) fail("the section " + std::string(section) + " is there twice");
+      const std::string_view kind = section == "$ParametricNodes" ? "$Nodes" : section;
+      if (!seen_.insert(std::string(kind)).second) fail("the section " + std::string(section) + " is there twice");
       const std::string end = "$End" + std::string(section.substr(1));
       if (const std::string_view found = word(); found != end) unexpected(found, "\"" + end + "\"");
     }
@@ -140,12 +145,28 @@ class GmshParser : public Text {
     });
   }
 
-  void entities() {
+  // Partitioned entities are those that the elements of a partitioned mesh belong to. Each lies on another one, its
+  // parent, and repeats the parent's groups; one of fewer dimensions than its parent is a border between partitions,
+  // which belongs to no group of ours.
+  void entities(bool partitioned) {
+    if (partitioned) {
+      count("the number of partitions");
+      times(count("the number of ghost entities"), [&] {
+        tag("the number of a ghost entity");
+        tag("the number of a partition");
+      });
+    }
     std::array<Tag, 4> counts{};
     for (Tag& n : counts) n = count("a number of entities");
     for (int dim = 0; dim < 4; ++dim)
       times(counts[static_cast<std::size_t>(dim)], [&] {
         const Tag number = tag("the number of an entity");
+        int parent = dim;
+        if (partitioned) {
+          parent = integer<int>(word(), -1, 3, "the dimension of an entity");
+          tag("the number of an entity");
+          times(count("a number of partitions"), [&] { tag("the number of a partition"); });
+        }
         for (int i = 0; i < (dim == 0 ? 3 : 6); ++i) real(word(), "a coordinate of an entity");
         const Tag groups = count("a number of groups");
         if (groups > most_groups)
@@ -155,7 +176,8 @@ class GmshParser : public Text {
         times(groups, [&] { list.push_back(group(tag("the number of a group"))); });
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
-        if (!list.empty()) file_.groups[{dim, number}] = std::move(list);
+        if (!list.empty() && parent <= dim) file_.groups[{dim, number}] = std::move(list);
+        file_.entities.insert({dim, number});
         if (dim > 0) times(count("a number of entities"), [&] { tag("the number of an entity"); });
       });
   }
@@ -187,11 +209,15 @@ class GmshParser : public Text {
     check_total(total, file_.nodes.size(), "nodes");
   }
 
-  void nodes_v2() {
+  void nodes_v2(bool parametric) {
     times(count("the number of nodes"), [&] {
       const Tag number = count("the number of a node");
       const std::size_t at = line();
       add_node(number, place(), at);
+      if (!parametric) return;
+      const int dim = dimension("the dimension of an entity");
+      tag("the number of an entity");
+      for (int i = 0; i < (dim < 3 ? dim : 0); ++i) real(word(), "a parameter of a node");  // volumes have none
     });
   }
 
@@ -217,7 +243,7 @@ class GmshParser : public Text {
       if (kind.dim != dim) fail(std::string(kind.one) + " cannot have dimension " + std::to_string(dim));
       times(count("the number of elements in a block"), [&] {
         count("the number of an element");
-        element_nodes({&kind, entity, {}, line()});
+        element_nodes({&kind, entity, {}, line(), entity});
       });
     });
     check_total(total, file_.elements.size(), "elements");
@@ -228,14 +254,15 @@ class GmshParser : public Text {
       count("the number of an element");
       const std::size_t at = line();
       const GmshType& kind = type();
-      Tag physical = 0;
+      Tag physical = 0, elementary = 0;
       const Tag tags = count("the number of tags");
-      for (Tag i = 0; i < tags; ++i) {
+      for (Tag i = 0; i < tags; ++i) {  // those that follow tell of partitions
         const Tag value = tag("a tag of an element");
         if (i == 0) physical = group(value);
+        if (i == 1) elementary = value;
       }
       if (physical != 0) file_.groups[{kind.dim, physical}] = {physical};
-      element_nodes({&kind, physical, {}, at});
+      element_nodes({&kind, physical, {}, at, elementary});
     });
   }
 
@@ -295,6 +322,7 @@ class GmshMesh {
 
   MeshType make() {
     sort_tags();
+    find_repeated();
     add_nodes();
     add_cells();
     connect();
@@ -335,6 +363,28 @@ class GmshMesh {
     return found->second;
   }
 
+  // Format 2.2 writes a cell of two groups twice. Two cells of one entity and one group that are the same are a fault
+  // of the mesh.
+  void find_repeated() {
+    repeated_.assign(file_.elements.size(), false);
+    std::map<GmshFile::Tag, GmshFile::Tag> group_of;
+    bool several = false;
+    for (const Element& e : file_.elements)
+      if (e.type->dim == dim && e.entity != e.elementary)
+        several = several || group_of.try_emplace(e.elementary, e.entity).first->second != e.entity;
+    if (!several) return;
+    using Key = std::pair<GmshFile::Tag, std::array<GmshFile::Tag, 8>>;  // entity, nodes in ascending order
+    std::map<Key, GmshFile::Tag> first;                                  // the group in which it is a cell
+    for (std::size_t k = 0; k < file_.elements.size(); ++k) {
+      const Element& e = file_.elements[k];
+      if (e.type->dim != dim) continue;
+      Key key{e.elementary, e.nodes};
+      std::sort(key.second.begin(), key.second.end());
+      const auto [at, fresh] = first.try_emplace(key, e.entity);
+      repeated_[k] = !fresh && at->second != e.entity;
+    }
+  }
+
   // Nodes of cells alone, in the order of the file: the others would have no stiffness.
   void add_nodes() {
     number_.assign(file_.nodes.size(), unused);
@@ -373,8 +423,9 @@ class GmshMesh {
 
   void add_cells() {
     const auto rule = Traits::Cell::quadrature();
-    for (const Element& e : file_.elements) {
-      if (e.type->dim != dim) continue;
+    for (std::size_t k = 0; k < file_.elements.size(); ++k) {
+      const Element& e = file_.elements[k];
+      if (e.type->dim != dim || repeated_[k]) continue;
       typename decltype(mesh_.cells)::value_type cell{};
       Mat<Real, nodes_per_cell, dim> X;
       for (std::size_t a = 0; a < cell.size(); ++a) {
@@ -404,7 +455,7 @@ class GmshMesh {
       mesh_.cells.push_back(cell);
       for (const auto& local : Traits::facets) {
         Facet walk{};
-        for (std::size_t k = 0; k < walk.size(); ++k) walk[k] = cell[local[k]];
+        for (std::size_t n = 0; n < walk.size(); ++n) walk[n] = cell[local[n]];
         facets_.push_back({key_of(walk), walk, e.line});
       }
     }
@@ -437,10 +488,20 @@ class GmshMesh {
     std::map<GmshFile::Key, std::vector<const Element*>> members;
     for (const Element& e : file_.elements) {
       if (e.type->dim >= dim) continue;
-      const auto groups = file_.groups.find({e.type->dim, e.entity});
+      const GmshFile::Key entity{e.type->dim, e.entity};
+      if (!file_.entities.empty() && file_.entities.count(entity) == 0)
+        text_.fail(e.line, std::string(e.type->one) + " of the " + Traits::nameless[e.type->dim] +
+                               std::to_string(e.entity) +
+                               ", which the file does not list, so that its groups are lost");
+      const auto groups = file_.groups.find(entity);
       if (groups == file_.groups.end()) continue;
       for (const GmshFile::Tag group : groups->second) members[{e.type->dim, group}].push_back(&e);
     }
+    for (const auto& [group, name] : file_.names)
+      if (group.first < dim && members.count(group) == 0)
+        text_.fail_whole("the group \"" + shown(name, 60) +
+                         "\" has a name but no elements; format 2.2 loses groups with Mesh.SaveAll = 1, and a mesh "
+                         "that is saved in pieces has in each file some");
     for (const auto& [group, elements] : members) {
       const std::string name = name_of(group);
       const auto [at, fresh] = mesh_.sides.try_emplace(name);
@@ -490,6 +551,7 @@ class GmshMesh {
   std::vector<std::pair<GmshFile::Tag, std::size_t>> places_;  // in the file, by tag
   std::vector<Index> number_;                                  // in the mesh, by place in the file
   std::vector<CellFacet> facets_;
+  std::vector<bool> repeated_;  // of the file's elements, those that are a cell already
 };
 
 template <int dim>
@@ -508,7 +570,9 @@ typename GmshMesh<dim>::MeshType read_gmsh(std::string_view bytes, const std::st
 /// they have no name; their facets are turned to have the body where `Side` wants it and must lie on its boundary.
 /// Groups of fewer dimensions become sides of nodes without facets: good to hold, not to load. What cells have is kept,
 /// in the order of the file: nodes of no cell and elements of no group go. Cells that are numbered clockwise (in space:
-/// mirrored) are turned.
+/// mirrored) are turned. Of a partitioned mesh the whole is read, as if it had not been parted; parameters of nodes are
+/// passed over; a cell that format 2.2 repeats for each of its groups is one cell. Nodes at one place stay apart:
+/// blocks that were not joined. A run of such a mesh warns of them (mesh/coincident_nodes.hpp).
 ///
 /// Throws std::runtime_error, one sentence with the file and the line, if it cannot be read, is not what it claims to
 /// be, or is no mesh: cells of another kind, folded or on one another. Needs memory in proportion to the file, never to

@@ -2,36 +2,49 @@
 #pragma once
 
 #include <stickslip/geometry/triangles.hpp>
+#include <stickslip/io/new_file.hpp>
 #include <stickslip/io/text.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <istream>
 #include <limits>
+#include <map>
+#include <ostream>
+#include <queue>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace stickslip::io {
 
+/// What says where outside is: the order of a triangle's corners, which the right hand's fingers follow while its thumb
+/// points out, or the normal that is written beside them. The format wants both, and alike.
+enum class Outside { agreed, corners, normals };
+
 namespace detail {
 
-// Corners, three a triangle, as a file of triangles lists them: each with vertices of its own.
-using Corners = std::vector<Vec<Real, 3>>;
+// What a file lists: corners, three a triangle, each with vertices of its own, and a normal for each triangle, of any
+// length and possibly not a number.
+struct Facets {
+  std::vector<Vec<Real, 3>> corners, normals;
+  std::vector<std::size_t> places;  // lines (ASCII) or bytes (binary) of the triangles
+  const char* place = "line";
+};
 
 inline std::string lower(std::string_view text) {
   std::string small(text);
-  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return small;
 }
 
@@ -44,36 +57,56 @@ class StlWords : public Text {
     const std::string found = next();
     if (found != wanted) unexpected(found, std::string("\"") + wanted + "\"");
   }
+  // "endloop", or "end loop".
+  void expect_end(const std::string& of) {
+    const std::string found = next();
+    if (found == "end" + of) return;
+    if (found != "end") unexpected(found, "\"end" + of + "\"");
+    expect(of.c_str());
+  }
+  // A component of a normal. Of a triangle without area they are not numbers, spelled as the writer's language does:
+  // nan, -nan(ind), 1.#IND.
+  Real component() {
+    const std::string found = next();
+    const std::string_view digits = std::string_view(found).substr(found.starts_with('-') || found.starts_with('+'));
+    for (const char* none : {"nan", "inf", "1.#"})
+      if (digits.starts_with(none)) return std::numeric_limits<Real>::quiet_NaN();
+    return real(found);
+  }
 };
 
-inline Corners read_ascii_stl(const std::string& name, std::string_view bytes) {
+inline Facets read_ascii_stl(const std::string& name, std::string_view bytes) {
   StlWords words(name, bytes);
-  Corners corners;
+  Facets facets;
   words.expect("solid");
   words.rest_of_line();  // its name
   for (;;) {
     std::string word = words.next();
+    if (word == "end") word += words.next();
     if (word == "endsolid") {
       words.rest_of_line();
       word = words.next();
-      if (word.empty()) return corners;
+      if (word.empty()) return facets;
       if (word != "solid") words.unexpected(word, "\"solid\" or the end of the file");
       words.rest_of_line();
       continue;
     }
     if (word != "facet") words.unexpected(word, "\"facet\" or \"endsolid\"");
+    facets.places.push_back(words.line());
     words.expect("normal");
-    for (int i = 0; i < 3; ++i) words.real(words.word());  // the corners' order says more
+    Vec<Real, 3> normal;
+    for (int i = 0; i < 3; ++i) normal[i] = words.component();
+    facets.normals.push_back(normal);
     words.expect("outer");
     words.expect("loop");
     for (int k = 0; k < 3; ++k) {
       words.expect("vertex");
       Vec<Real, 3> x;
       for (int i = 0; i < 3; ++i) x[i] = words.real(words.word());
-      corners.push_back(x);
+      facets.corners.push_back(x);
     }
-    words.expect("endloop");
-    words.expect("endfacet");
+    words.expect_end("loop");
+    words.expect_end("facet");
   }
 }
 
@@ -85,27 +118,76 @@ inline std::uint32_t stl_count(std::string_view bytes) {
   return count;
 }
 
-inline Corners read_binary_stl(const std::string& name, std::string_view bytes) {
-  Corners corners;
+inline Facets read_binary_stl(const std::string& name, std::string_view bytes) {
+  Facets facets;
+  facets.place = "byte";
   const std::size_t count = stl_count(bytes);
-  corners.reserve(3 * count);
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t offset = stl_header + stl_triangle * i + 12 * (k + 1);  // behind the normal
+  facets.corners.reserve(3 * count);
+  facets.normals.reserve(count);
+  facets.places.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = stl_header + stl_triangle * i;
+    facets.places.push_back(at);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t offset = at + 12 * k;
       std::array<float, 3> x{};
       std::memcpy(x.data(), bytes.data() + offset, sizeof(x));
+      if (k == 0) {
+        facets.normals.emplace_back(x[0], x[1], x[2]);
+        continue;
+      }
       for (const float component : x)
         if (!std::isfinite(component))
           throw std::runtime_error(name + ", byte " + std::to_string(offset) + ": a vertex of triangle " +
                                    std::to_string(i) + " is not finite");
-      corners.emplace_back(x[0], x[1], x[2]);
+      facets.corners.emplace_back(x[0], x[1], x[2]);
     }
-  return corners;
+  }
+  return facets;
+}
+
+inline Vec<Real, 3> cross_product(const Vec<Real, 3>& a, const Vec<Real, 3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// Turns triangles, or refuses a file that says two things of where outside is. `extent` is the diagonal of the box.
+inline void settle_outside(Facets& facets, Real extent, Outside outside, const std::string& name) {
+  if (outside == Outside::corners) return;
+  const std::size_t count = facets.normals.size();
+  std::vector<std::size_t> against;
+  std::size_t judged = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto scaled = [&](std::size_t k) -> Vec<Real, 3> { return facets.corners[3 * i + k] / extent; };
+    const Vec<Real, 3> a = scaled(1) - scaled(0), b = scaled(2) - scaled(0), area = cross_product(a, b);
+    const Vec<Real, 3> normal = facets.normals[i].stableNormalized();
+    // A triangle whose height is lost in the digits of a file has no normal that could say anything.
+    const Real longest = std::max({a.norm(), b.norm(), (a - b).norm()});
+    Real largest = 1;
+    for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, scaled(k).cwiseAbs().maxCoeff());
+    if (!normal.allFinite() || !(area.norm() > 1e-5 * largest * longest)) continue;
+    const Real cosine = normal.dot(area) / area.norm();
+    if (!(std::abs(cosine) > 0.5)) continue;
+    ++judged;
+    if (cosine < 0) against.push_back(i);
+  }
+  if (against.empty()) return;
+  if (outside == Outside::agreed)
+    throw std::runtime_error(name + ", " + facets.place + " " + std::to_string(facets.places[against[0]]) +
+                             ": the corners of triangle " + std::to_string(against[0]) +
+                             " run clockwise about its normal, and so do those of " + std::to_string(against.size()) +
+                             " of " + std::to_string(count) +
+                             " triangles; say which is right where the file is read, Outside::normals or "
+                             "Outside::corners");
+  const auto turn = [&](std::size_t i) { std::swap(facets.corners[3 * i + 1], facets.corners[3 * i + 2]); };
+  if (against.size() == judged)  // those that cannot be judged go with the others
+    for (std::size_t i = 0; i < count; ++i) turn(i);
+  else
+    for (const std::size_t i : against) turn(i);
 }
 
 // Gives corners in a box of diagonal `extent` one vertex if they are closer than `tolerance`; leaves out triangles of
 // which two corners fall together.
-inline rigid::Triangles merge(const Corners& corners, Real extent, Real tolerance) {
+inline rigid::Triangles merge(const std::vector<Vec<Real, 3>>& corners, Real extent, Real tolerance) {
   struct Hash {
     std::size_t operator()(const std::array<std::int64_t, 3>& cell) const {
       std::uint64_t h = 0;
@@ -148,28 +230,127 @@ inline rigid::Triangles merge(const Corners& corners, Real extent, Real toleranc
   return out;
 }
 
+// Takes out triangles without area, no higher than `tolerance`: a mesher puts them where vertices of one patch lie on
+// an edge of the next. Such an edge is divided at the vertex instead, so that the surface stays closed.
+inline void take_out_slivers(rigid::Triangles& surface, Real tolerance) {
+  using Triangle = std::array<Index, 3>;
+  const auto vertex = [&](Index n) -> const Vec<Real, 3>& { return surface.vertices[static_cast<std::size_t>(n)]; };
+  struct Flat {
+    Real length;        // of the longest edge
+    Triangle triangle;  // begins with that edge
+    std::size_t at;
+    bool operator<(const Flat& other) const { return length != other.length ? length < other.length : at > other.at; }
+  };
+  auto& triangles = surface.corners;
+  const auto flat = [&](std::size_t at, Flat& found) {
+    Triangle t = triangles[at];
+    Real length = -1;
+    for (int k = 0; k < 3; ++k, std::rotate(t.begin(), t.begin() + 1, t.end()))
+      if (const Real l = (vertex(t[1]) - vertex(t[0])).stableNorm(); l > length) found = {length = l, t, at};
+    const auto& [from, to, top] = found.triangle;
+    // Of edges over the longest one, whose squares are numbers.
+    const Vec<Real, 3> along = (vertex(to) - vertex(from)) / length, side = (vertex(top) - vertex(from)) / length;
+    return !(cross_product(along, side).norm() > std::max(tolerance / length, Real(2e-12)));
+  };
+  std::priority_queue<Flat> work;
+  Flat found{};
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (flat(i, found)) work.push(found);
+  if (work.empty()) return;
+  // From, to -> the triangle, if there is one only.
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::map<std::pair<Index, Index>, std::size_t> walked;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [at, fresh] = walked.insert({{triangles[i][k], triangles[i][(k + 1) % 3]}, i});
+      if (!fresh) at->second = none;
+    }
+  std::vector<bool> gone(triangles.size(), false);
+  const auto forget = [&](std::size_t i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = walked.find({triangles[i][k], triangles[i][(k + 1) % 3]});
+      if (at != walked.end() && at->second == i) walked.erase(at);
+    }
+  };
+  const auto put = [&](std::size_t i, const Triangle& t) {
+    triangles[i] = t;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [at, fresh] = walked.insert({{t[k], t[(k + 1) % 3]}, i});
+      if (!fresh) at->second = none;
+    }
+    Flat again{};
+    if (flat(i, again)) work.push(again);
+  };
+  // Each division brings a vertex into a triangle of its own; one that would go round in circles is left out.
+  for (std::size_t budget = 8 * work.size() + 8; !work.empty();) {
+    const Flat now = work.top();
+    work.pop();
+    if (gone[now.at]) continue;
+    const auto [from, to, top] = now.triangle;
+    {
+      const Triangle& t = triangles[now.at];
+      Triangle a = t, b = now.triangle;
+      std::sort(a.begin(), a.end());
+      std::sort(b.begin(), b.end());
+      if (a != b) continue;  // of a triangle that has been divided since
+    }
+    const auto across = walked.find({to, from});
+    const std::size_t other = across == walked.end() ? none : across->second;
+    forget(now.at);
+    if (other == none || budget == 0) {
+      gone[now.at] = true;
+      continue;
+    }
+    --budget;
+    Index far = 0;
+    for (const Index n : triangles[other])
+      if (n != from && n != to) far = n;
+    forget(other);
+    if (far == top) {  // the same triangle, seen from the other side
+      gone[now.at] = gone[other] = true;
+      continue;
+    }
+    put(now.at, {top, from, far});
+    put(other, {far, to, top});
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (!gone[i]) triangles[kept++] = triangles[i];
+  triangles.resize(kept);
+}
+
 inline void check_merge(Real merge) {
   if (!(merge >= 0 && merge < 0.1)) throw std::invalid_argument("STL: the merge tolerance must lie in [0, 0.1)");
 }
 
-inline rigid::Triangles read_stl(std::string_view view, const std::string& name, Real merge_tolerance) {
+inline rigid::Triangles read_stl(std::string_view view, const std::string& name, Real merge_tolerance,
+                                 Outside outside) {
   static_assert(std::endian::native == std::endian::little, "binary STL files hold little-endian numbers");
-  const std::size_t first = view.find_first_not_of(" \t\r\n");
-  const bool solid = first != std::string_view::npos && lower(view.substr(first, 5)) == "solid";
-  const bool whole =
-      view.size() >= stl_header && view.size() - stl_header == stl_triangle * std::size_t(stl_count(view));
-  // Some binary files begin with "solid", but none without zero bytes.
-  const bool ascii = solid && !whole && view.find('\0') == std::string_view::npos;
+  const std::string_view text = without_mark(view);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const bool solid = first != std::string_view::npos && lower(text.substr(first, 5)) == "solid";
+  const std::size_t wanted = view.size() < stl_header ? 0 : stl_header + stl_triangle * std::size_t(stl_count(view));
+  const bool whole = wanted != 0 && view.size() >= wanted;
+  // Some binary files begin with "solid", but none without zero bytes; some texts end with them.
+  const std::string_view words = text.substr(0, text.find_last_not_of(std::string_view("\0\x1a", 2)) + 1);
+  const bool ascii = solid && view.size() != wanted && words.find('\0') == std::string_view::npos;
   if (!ascii && !whole) {
     if (view.size() < stl_header)
       throw std::runtime_error(name + ": neither an ASCII STL file, which begins with \"solid\", nor a binary one, " +
                                "which has a header of 84 bytes; this has " + std::to_string(view.size()));
-    const std::uint64_t count = stl_count(view);
-    throw std::runtime_error(name + ", byte 80: claims " + std::to_string(count) + " triangles, which take " +
-                             std::to_string(stl_header + stl_triangle * count) + " bytes, but the file has " +
-                             std::to_string(view.size()));
+    throw std::runtime_error(name + ", byte 80: claims " + std::to_string(stl_count(view)) + " triangles, which take " +
+                             std::to_string(wanted) + " bytes, but the file has " + std::to_string(view.size()));
   }
-  const Corners corners = ascii ? read_ascii_stl(name, view) : read_binary_stl(name, view);
+  // What stands behind the last triangle is nobody's, unless it could be more triangles.
+  if (!ascii) {
+    const std::string_view behind = view.substr(wanted);
+    if (!behind.empty() && behind.size() % stl_triangle == 0 && behind.find_first_not_of('\0') != behind.npos)
+      throw std::runtime_error(name + ", byte 80: claims " + std::to_string(stl_count(view)) +
+                               " triangles, but the file has bytes for " +
+                               std::to_string((view.size() - stl_header) / stl_triangle));
+  }
+  Facets facets = ascii ? read_ascii_stl(name, words) : read_binary_stl(name, view);
+  const std::vector<Vec<Real, 3>>& corners = facets.corners;
   if (corners.empty()) throw std::runtime_error(name + ": there are no triangles");
   if (corners.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
     throw std::runtime_error(name + ": more corners than can be numbered");
@@ -180,7 +361,9 @@ inline rigid::Triangles read_stl(std::string_view view, const std::string& name,
   }
   const Real extent = (high - low).stableNorm();
   if (!std::isfinite(extent)) throw std::runtime_error(name + ": the surface is larger than a number can tell");
+  if (extent > 0) settle_outside(facets, extent, outside, name);
   rigid::Triangles surface = merge(corners, extent, merge_tolerance * extent);
+  take_out_slivers(surface, merge_tolerance * extent);
   if (surface.corners.empty()) throw std::runtime_error(name + ": all triangles are degenerate");
   return surface;
 }
@@ -188,26 +371,34 @@ inline rigid::Triangles read_stl(std::string_view view, const std::string& name,
 }  // namespace detail
 
 /// Reads a surface from an STL file, ASCII or binary, whichever it is; `name` is what complaints call it. Corners
-/// closer to each other than `merge` times the diagonal of the surface's box become one vertex; triangles that lose a
-/// side by it are left out. The order of the corners says where outside is; the normals in the file are not looked at.
+/// closer to each other than `merge` times the diagonal of the surface's box become one vertex. Triangles that lose a
+/// side by it, or that are no higher, go: where they filled the seam between a vertex and an edge that it lies on, the
+/// edge is divided there.
+///
+/// Where outside is, the order of the corners and the normals in the file say, and both alike. A file in which they
+/// contradict each other is refused, unless `outside` tells which is right; normals that are zero, no numbers or nearly
+/// in the triangle's plane say nothing.
+///
 /// Throws std::runtime_error, one sentence with the file and the line (ASCII) or byte (binary), if the file cannot be
 /// read or is not what it claims to be. Needs memory in proportion to the file, never to a count that the file merely
-/// claims.
-inline rigid::Triangles read_stl(std::istream& in, const std::string& name, Real merge = 1e-6) {
+/// claims. Bytes behind a binary file's last triangle are passed over, unless they would make further triangles.
+inline rigid::Triangles read_stl(std::istream& in, const std::string& name, Real merge = 1e-6,
+                                 Outside outside = Outside::agreed) {
   detail::check_merge(merge);
-  return detail::read_stl(detail::read_all(in, name), name, merge);
+  return detail::read_stl(detail::read_all(in, name), name, merge, outside);
 }
 
 /// The same from a file on the disc.
-inline rigid::Triangles read_stl(const std::filesystem::path& path, Real merge = 1e-6) {
+inline rigid::Triangles read_stl(const std::filesystem::path& path, Real merge = 1e-6,
+                                 Outside outside = Outside::agreed) {
   detail::check_merge(merge);
-  return detail::read_stl(detail::read_all(path), path.string(), merge);
+  return detail::read_stl(detail::read_all(path), path.string(), merge, outside);
 }
 
 enum class StlFormat { binary, ascii };
 
 /// Writes a surface as an STL file: binary in single precision, ASCII in full. Throws std::runtime_error, naming the
-/// file, when it cannot be written.
+/// file and the reason, when it cannot be written.
 inline void write_stl(const std::filesystem::path& path, const rigid::Triangles& surface,
                       StlFormat format = StlFormat::binary) {
   static_assert(std::endian::native == std::endian::little, "binary STL files hold little-endian numbers");
@@ -243,10 +434,7 @@ inline void write_stl(const std::filesystem::path& path, const rigid::Triangles&
     text += format == StlFormat::ascii ? std::string("endloop\nendfacet\n") : std::string(2, '\0');
   }
   if (format == StlFormat::ascii) text += "endsolid stickslip\n";
-  std::ofstream out(path, std::ios::binary);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + path.string());
+  write_file(path, [&](std::ostream& out) { out.write(text.data(), static_cast<std::streamsize>(text.size())); });
 }
 
 }  // namespace stickslip::io

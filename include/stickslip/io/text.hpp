@@ -4,13 +4,14 @@
 #include <stickslip/base/types.hpp>
 
 #include <array>
-#include <cctype>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <istream>
+#include <locale>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -21,30 +22,47 @@
 /// what has been read, never with what is claimed.
 namespace stickslip::io::detail {
 
-/// All bytes of a stream. Throws std::runtime_error, naming it.
+/// All bytes of a stream. Throws std::runtime_error, naming it and, where the system gives one, the reason.
 inline std::string read_all(std::istream& in, const std::string& name) {
   std::string bytes;
   std::array<char, 1 << 12> block{};
+  errno = 0;
   while (in.read(block.data(), block.size()), in.gcount() > 0)
     bytes.append(block.data(), static_cast<std::size_t>(in.gcount()));
-  if (in.bad() || !in.eof()) throw std::runtime_error("cannot read " + name);
+  if (in.bad() || !in.eof())
+    throw std::runtime_error("cannot read " + name + (errno != 0 ? ": " + std::generic_category().message(errno) : ""));
   return bytes;
 }
 
-/// All bytes of a regular file: a device or a pipe might never end. Throws std::runtime_error, naming it.
+/// All bytes of a regular file: a device or a pipe might never end. Throws std::runtime_error, naming it and the
+/// reason.
 inline std::string read_all(const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error("cannot read " + path.string() + ": " + why);
+  };
   std::error_code error;
+  const bool regular = std::filesystem::is_regular_file(path, error);
+  if (error) refuse(error.message());
+  if (!regular) refuse("it is no regular file");
   std::ifstream in;
-  if (std::filesystem::is_regular_file(path, error)) in.open(path, std::ios::binary);
-  if (error || !in.is_open()) throw std::runtime_error("cannot read " + path.string());
+  in.imbue(std::locale::classic());  // whose bytes are the file's
+  errno = 0;
+  in.open(path, std::ios::binary);
+  if (!in.is_open()) refuse(std::generic_category().message(errno));
   return read_all(in, path.string());
+}
+
+/// Without the mark by which some programs begin a text in UTF-8.
+inline std::string_view without_mark(std::string_view bytes) {
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  return bytes;
 }
 
 /// Bytes of a file as a sentence may quote them: garbage may be long and may not be text.
 inline std::string shown(std::string_view bytes, std::size_t longest = 20) {
   std::string text(bytes.substr(0, longest));
   for (char& c : text)
-    if (!std::isprint(static_cast<unsigned char>(c))) c = '?';
+    if (c < ' ' || c > '~') c = '?';
   return bytes.size() > longest ? text + "..." : text;
 }
 

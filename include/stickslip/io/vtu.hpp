@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/assembly/stress_recovery.hpp>
+#include <stickslip/io/new_file.hpp>
 #include <stickslip/problem.hpp>
 
 #include <array>
@@ -9,11 +10,13 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
+#include <ostream>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -49,10 +52,65 @@ void write_array(std::ostream& out, const char* type, const std::string& name, i
       << "\" format=\"binary\">" << base64(data) << "</DataArray>\n";
 }
 
-inline std::ofstream open(const std::filesystem::path& path) {
-  std::ofstream out(path, std::ios::binary);
-  if (!out) throw std::runtime_error("cannot write " + path.string());
+// Text as it stands between the quotation marks of an attribute.
+inline std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\t':
+        out += "&#9;";
+        break;
+      case '\n':
+        out += "&#10;";
+        break;
+      case '\r':
+        out += "&#13;";
+        break;
+      default:
+        out += c;
+    }
+  }
   return out;
+}
+
+// Whether XML can say the text at all: UTF-8 of its characters, which have nearly no control characters.
+inline bool is_xml_text(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto at = [&](std::size_t k) -> std::uint32_t {
+      return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u;
+    };
+    const std::uint32_t first = at(0);
+    const std::size_t length = first < 0x80         ? 1
+                               : first >> 5 == 0x6  ? 2
+                               : first >> 4 == 0xe  ? 3
+                               : first >> 3 == 0x1e ? 4
+                                                    : 0;
+    if (length == 0) return false;
+    static constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000}, mask{0, 0x7f, 0x1f, 0x0f, 0x07};
+    std::uint32_t code = first & mask[length];
+    for (std::size_t k = 1; k < length; ++k) {
+      if (at(k) >> 6 != 2) return false;
+      code = code << 6 | (at(k) & 0x3f);
+    }
+    const bool blank = code == 0x9 || code == 0xa || code == 0xd;
+    if (code < least[length] || (code < 0x20 && !blank) || (code >= 0xd800 && code < 0xe000) || code == 0xfffe ||
+        code == 0xffff || code > 0x10ffff)
+      return false;
+    i += length;
+  }
+  return true;
 }
 
 }  // namespace detail
@@ -112,7 +170,8 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
     if constexpr (plastic) plastic_strain[e] /= volume[e];
   }
 
-  std::ofstream out = open(path);
+  NewFile file(path);
+  std::ostream& out = file.stream();
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\">\n"
       << "<UnstructuredGrid><Piece NumberOfPoints=\"" << nodes << "\" NumberOfCells=\"" << cells << "\">\n<Points>\n";
@@ -154,7 +213,7 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
   if constexpr (plastic) write_array(out, "Float64", "plastic_strain", 1, plastic_strain);
   write_array(out, "Float64", "stress_error", 1, recovery.cells());
   out << "</CellData>\n</Piece></UnstructuredGrid>\n</VTKFile>\n";
-  if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
+  file.place();
 }
 
 }  // namespace detail
@@ -163,8 +222,8 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
 /// [force], contact traction [force / reference area], slip and gap [length] (not a number where no tool is near the
 /// side); in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure,
 /// the estimated error of the mesh in the stress (theory.md, eq. 6.16) and, where the material has it, plastic strain.
-/// In axisymmetry x is the radius, y the axis and z the hoop direction. Throws std::runtime_error, naming the file,
-/// when it cannot be written.
+/// In axisymmetry x is the radius, y the axis and z the hoop direction. Throws std::runtime_error, naming the file and
+/// the reason, when it cannot be written: the old file is then as it was (NewFile).
 template <class Model>
 void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
   std::vector<const ContactRecord<Scene<Model>::dim>*> contacts;
@@ -176,24 +235,33 @@ void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
 /// is rewritten after every state, so that an interrupted run leaves a readable one.
 class VtuSeries {
  public:
+  /// Makes the folder. `name` is the beginning of names of files and stands in XML: UTF-8 without a slash. Throws
+  /// std::invalid_argument if it is not, std::runtime_error, naming the folder, if that cannot be made.
   VtuSeries(std::filesystem::path directory, std::string name)
       : directory_(std::move(directory)), name_(std::move(name)) {
-    std::filesystem::create_directories(directory_);
+    if (name_.find('/') != name_.npos || !detail::is_xml_text(name_))
+      throw std::invalid_argument(
+          "a VTU series: its name must be text in UTF-8 without slashes and control characters");
+    std::error_code error;
+    std::filesystem::create_directories(directory_, error);
+    if (error) throw std::runtime_error("cannot write " + directory_.string() + ": " + error.message());
   }
 
+  /// The converged state, as the next of the series. Throws std::runtime_error, naming the file and the reason, if it
+  /// cannot be written; the next one then takes its place.
   template <class Model>
   void write(const Scene<Model>& problem) {
     write_vtu(directory_ / file(times_.size()), problem);
     times_.push_back(problem.time());
-    const auto path = directory_ / (name_ + ".pvd");
-    std::ofstream out = detail::open(path);
+    NewFile collection(directory_ / (name_ + ".pvd"));
+    std::ostream& out = collection.stream();
     out.precision(17);
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
            "byte_order=\"LittleEndian\">\n<Collection>\n";
     for (std::size_t k = 0; k < times_.size(); ++k)
-      out << "<DataSet timestep=\"" << times_[k] << "\" part=\"0\" file=\"" << file(k) << "\"/>\n";
+      out << "<DataSet timestep=\"" << times_[k] << "\" part=\"0\" file=\"" << detail::escaped(file(k)) << "\"/>\n";
     out << "</Collection>\n</VTKFile>\n";
-    if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
+    collection.place();
   }
 
   /// The states so far, to be kept with a march (io::save): a restarted run writes those again that came later.
