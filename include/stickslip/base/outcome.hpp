@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/brief.hpp>
 #include <stickslip/base/types.hpp>
 
 #include <string>
@@ -89,14 +90,14 @@ struct [[nodiscard]] Outcome {
   std::string message() const {
     if (*this) return "completed";
     std::string text =
-        "step " + std::to_string(step) + " after time " + std::to_string(time) + " failed: " + describe(trouble.cause);
+        "step " + std::to_string(step) + " after time " + brief(time) + " failed: " + describe(trouble.cause);
     if (trouble.place.kind == Place::Kind::element) text += " (element " + std::to_string(trouble.place.number) + ")";
     if (trouble.place.kind == Place::Kind::node) text += " (node " + std::to_string(trouble.place.number) + ")";
     if (trouble.place.kind == Place::Kind::contact_node)
       text += " (contact node " + std::to_string(trouble.place.number) + ")";
     if (!detail.empty()) text += ": " + detail;
     return text + "; tried " + std::to_string(attempts) + " times down to a time increment of " +
-           std::to_string(tried_step);
+           brief(tried_step);
   }
 };
 

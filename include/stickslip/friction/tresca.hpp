@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/friction/pressure_source.hpp>
-
-#include <stdexcept>
 
 namespace stickslip {
 
@@ -25,7 +24,7 @@ struct Tresca {
     return {S(tau * at.area), S(0), S(0)};
   }
   void validate() const {
-    if (!(tau >= 0)) throw std::invalid_argument("Tresca friction: the shear stress tau must not be negative");
+    require::not_negative(tau, "Tresca friction: the shear stress tau");
   }
 };
 static_assert(friction_symmetry<Tresca>() == Symmetry::symmetric);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/base/role.hpp>
 #include <stickslip/tensor/tensor.hpp>
-
-#include <stdexcept>
 
 namespace stickslip {
 
@@ -21,7 +20,7 @@ struct PlaneStrain {
   Real measure(const Vec<Real, 2>&) const { return thickness; }
 
   void validate() const {
-    if (!(thickness > 0)) throw std::invalid_argument("plane strain: the thickness must be positive");
+    require::positive(thickness, "plane strain: the thickness");
   }
 };
 
