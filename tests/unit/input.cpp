@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 // Wrong input: std::invalid_argument before any work, and the message names the input.
 #include <stickslip/element/mean_dilatation.hpp>
+#include <stickslip/enforcement/augmented_lagrangian.hpp>
 #include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/anisotropic_coulomb.hpp>
 #include <stickslip/friction/capped_coulomb.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/slip_weakening.hpp>
 #include <stickslip/friction/stribeck.hpp>
 #include <stickslip/friction/tresca.hpp>
+#include <stickslip/inertia/generalized_alpha.hpp>
 #include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
@@ -137,6 +140,15 @@ TEST_CASE("materials and kinematics") {
   CHECK(says(after<Plane>(good(), [](auto& p) { p.kinematics.thickness = nan; }), "thickness"));
   CHECK(says(after<Plane>(good(), [](auto& p) { p.material.young = 0; }), "Young"));
   CHECK(says(after<Plane>(good(), [](auto& p) { p.material.young = nan; }), "Young"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.material.young = infinity; }), "Young's modulus must be finite"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.kinematics.thickness = infinity; }), "thickness must be finite"));
+  CHECK(says(after<Plane>(good(), [](auto& p) { p.material.hardening.yield = infinity; }), "yield stress must be f"));
+  CHECK(says(after<Turned>(good_turned(), [](auto& p) { p.material.hardening.strength = infinity; }), "strength must"));
+  CHECK(says(after<Turned>(good_turned(), [](auto& p) { p.material.hardening.offset = infinity; }), "offset must"));
+  CHECK(says(after<Turned>(good_turned(), [](auto& p) { p.material.hardening.offset = nan; }), "offset must"));
+  COMPLAINS("yield stress must be finite", PerfectPlasticity{.yield = infinity}.validate());
+  COMPLAINS("saturation", (VoceHardening{.yield = 1, .saturation = infinity, .rate = 1}.validate()));
+  COMPLAINS("rate", (VoceHardening{.yield = 1, .saturation = 2, .rate = infinity}.validate()));
   CHECK(says(after<Plane>(good(), [](auto& p) { p.material.poisson = 0.5; }), "Poisson"));
   CHECK(says(after<Plane>(good(), [](auto& p) { p.material.poisson = -1; }), "Poisson"));
   CHECK(says(after<Plane>(good(), [](auto& p) { p.material.hardening.yield = 0; }), "yield"));
@@ -155,6 +167,11 @@ TEST_CASE("contacts") {
   CHECK(says(contact([](auto& c) { c.enforcement.tangential = 0; }), "contact \"top\": friction needs"));
   CHECK(says(contact([](auto& c) { c.friction.mu = -0.1; }), "mu"));
   CHECK(says(contact([](auto& c) { c.friction.mu = nan; }), "mu"));
+  CHECK(says(contact([](auto& c) { c.friction.mu = infinity; }), "mu must be finite"));
+  CHECK(says(contact([](auto& c) { c.enforcement.normal = infinity; }), "normal stiffness must be finite"));
+  CHECK(says(contact([](auto& c) { c.enforcement.tangential = infinity; }), "tangential stiffness must be finite"));
+  COMPLAINS("normal stiffness must be finite", AugmentedLagrangian{.normal = infinity}.validate());
+  COMPLAINS("tangential stiffness must be finite", AugmentedLagrangian{.tangential = infinity}.validate());
   CHECK(says(after<Plane>(good(), [](auto& p) { p.contacts.push_back(p.contacts[0]); }), "\"top\""));
 }
 
@@ -171,6 +188,29 @@ TEST_CASE("friction laws") {
   COMPLAINS("mu_static", (Stribeck{.mu_static = nan, .speed = 1}.validate()));
   COMPLAINS("speed", Stribeck{.mu_static = 0.2}.validate());
   COMPLAINS("rounding", (Stribeck{.mu_static = 0.2, .speed = 1, .rounding = 0}.validate()));
+  COMPLAINS("mu must be finite", (CappedCoulomb{.mu = infinity, .tau_max = 1}.validate()));
+  COMPLAINS("tau must be finite", Tresca{.tau = infinity}.validate());
+  COMPLAINS("mu_static must be finite", (SlipWeakeningCoulomb{.mu_static = infinity, .length = 1}.validate()));
+  COMPLAINS("length must be finite", (SlipWeakeningCoulomb{.mu_static = 0.2, .length = infinity}.validate()));
+  COMPLAINS("mu_static must be finite", (Stribeck{.mu_static = infinity, .speed = 1}.validate()));
+  COMPLAINS("speed must be finite", (Stribeck{.mu_static = 0.2, .speed = infinity}.validate()));
+  COMPLAINS("rounding must be finite", (Stribeck{.mu_static = 0.2, .speed = 1, .rounding = infinity}.validate()));
+  COMPLAINS("mu_along must be finite", (AnisotropicCoulomb{.mu_along = infinity, .mu_across = 1}.validate()));
+  COMPLAINS("mu_across must be finite", (AnisotropicCoulomb{.mu_along = 1, .mu_across = infinity}.validate()));
+}
+
+TEST_CASE("inertia") {
+  COMPLAINS("density must be finite", GeneralizedAlpha{.density = infinity}.validate());
+  COMPLAINS("density must be positive", GeneralizedAlpha{.density = nan}.validate());
+  COMPLAINS("gamma", (GeneralizedAlpha{.density = 1, .scheme = {.gamma = nan}}.validate()));
+  COMPLAINS("beta", (GeneralizedAlpha{.density = 1, .scheme = {.beta = infinity}}.validate()));
+  COMPLAINS("alpha_m must be finite", (GeneralizedAlpha{.density = 1, .scheme = {.alpha_m = nan}}.validate()));
+  COMPLAINS("alpha_f must be finite", (GeneralizedAlpha{.density = 1, .scheme = {.alpha_f = nan}}.validate()));
+  COMPLAINS("below 1", (GeneralizedAlpha{.density = 1, .scheme = {.alpha_f = 1}}.validate()));
+  COMPLAINS("Newmark", (void)newmark(infinity));
+  COMPLAINS("Newmark", (void)newmark(0.25, infinity));
+  COMPLAINS("spectral radius", (void)chung_hulbert(nan));
+  COMPLAINS("alpha", (void)hht(nan));
 }
 
 TEST_CASE("supports, loads, contacts by name and tools that are nowhere") {
@@ -206,6 +246,19 @@ TEST_CASE("runs") {
   COMPLAINS("step sizes", (void)p.march({.initial = -1}));
   COMPLAINS("step sizes", (void)p.march({.largest = -1}));
   COMPLAINS("step sizes", (void)p.march({.smallest = -1}));
+  for (const Real wrong : {nan, infinity}) {
+    COMPLAINS("step size", (void)p.march({.initial = wrong}));
+    COMPLAINS("step size", (void)p.march({.largest = wrong}));
+    COMPLAINS("step size", (void)p.march({.smallest = wrong}));
+    COMPLAINS("stop must be finite", (void)p.march({.stops = {0.5, wrong}}));
+    COMPLAINS("pass tolerance", (void)p.march({.pass_tolerance = wrong}));
+    COMPLAINS("time tolerance", (void)p.march({.time_tolerance = wrong}));
+    COMPLAINS("lag tolerance", (void)p.march({.lag_tolerance = wrong}));
+    COMPLAINS("step tolerance", (void)p.march({.step_tolerance = wrong}));
+  }
+  COMPLAINS("wanted_iterations", (void)p.march({.wanted_iterations = 0}));
+  COMPLAINS("wanted_iterations", (void)p.march({.wanted_iterations = -4}));
+  COMPLAINS("a first step of 1e-40 is below", (void)p.march({.initial = 1e-40}));
 }
 
 }  // namespace
