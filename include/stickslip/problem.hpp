@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <stdexcept>
 
 namespace stickslip {
 
@@ -41,6 +42,9 @@ class March : public Course {
     March* march_;
   };
 
+  March(const March&) = delete;
+  March& operator=(const March&) = delete;
+
   Iterator begin() {
     if (!begun_) advance();
     begun_ = true;
@@ -66,7 +70,16 @@ class March : public Course {
   Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
   bool feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact);
 
+  void require_own() const {
+    if (state_ != problem_.revision_)
+      throw std::invalid_argument(
+          "march: the problem is no longer in the state that this march goes on from: another march has moved it; "
+          "begin "
+          "a new one");
+  }
+
   Scene<Mechanical>& problem_;
+  Index state_;  // revision of the converged state that the next step starts from
   Newton<SolverOf<Model>, has_near_tangent<Model>()> newton_;
   Field trial_, driven_, pass_start_;
   std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
@@ -107,12 +120,14 @@ template <class Model>
 March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
     : Course(options, problem.time_),
       problem_(problem),
+      state_(problem.revision_),
       newton_(NewtonOptions{.tolerance = options.tolerance,
                             .max_iterations = options.max_iterations,
                             .line_search = options.line_search}) {
   if constexpr (takes_passes<Model>() || has_lag<Model>()) pass_start_ = problem.u_;
   if (options.space_every > 0) stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
   problem_.prepare();
+  problem_.require_agreement(options.end);
 }
 
 /// Passes over a step whose first one has converged, until another one would change nothing beyond the tolerance
@@ -180,7 +195,9 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
 
 template <class Model>
 void March<Model>::serialize(Archive& archive) {
+  problem_.prepare();
   problem_.serialize(archive);
+  if (archive.gives()) state_ = problem_.revision_;
   archive.same("solver", type_name<SolverOf<Model>>());
   newton_.serialize(archive, *problem_.system_);
   now_.work = newton_.counts;
@@ -193,9 +210,18 @@ void March<Model>::serialize(Archive& archive) {
 template <class Model>
 void March<Model>::advance() {
   if (!begin_step(newton_.counts)) return;
+  require_own();
+  problem_.prepare();  // supports and loads may have changed since the last step
   System<Mechanical>& system = *problem_.system_;
   Field& u = trial_;
   Index rejected = 0;
+  const auto unsupported = [&](Index part, Real dt, Index attempts) {
+    fail({Cause::unsupported, {}}, problem_.time_, dt, attempts, system.part_name(part));
+  };
+  if constexpr (!has_inertia<Model>)
+    if (!problem_.proven_)
+      if (const Index part = system.loose_part(true); part >= 0)
+        return unsupported(part, now_.control.next() - problem_.time_, 0);
   const auto give_up = [&] {
     ++rejected;
     ++now_.report.rejected_steps;
@@ -250,16 +276,17 @@ void March<Model>::advance() {
       estimate(step);
       Cause refusal = Cause::none;
       // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
-      if constexpr (!has_inertia<Model>)
-        if (problem_.last_dt_ == 0) {
-          driven_ = u - problem_.u_;
-          if (system.moves_freely(u, &driven_)) refusal = Cause::unsupported;
-        }
+      if constexpr (!has_inertia<Model>) {
+        driven_ = u - problem_.u_;
+        if (!problem_.proven_ || driven_.lpNorm<Eigen::Infinity>() > system.extent() || system.loose_part(false) >= 0)
+          if (const Index part = system.free_part(u, &driven_); part >= 0) return unsupported(part, dt, rejected + 1);
+      }
       if constexpr (has_lag<Model>())
         if (refusal == Cause::none && feeds_back(u, time, dt, contact)) refusal = Cause::lag_feeds_back;
       if (refusal != Cause::none) return fail({refusal, {}}, problem_.time_, dt, rejected + 1);
       accept(step, first_iterations, error);
       problem_.accept(u, time, dt);
+      state_ = problem_.revision_;
       if (stress_ && now_.report.steps % options_.space_every == 0) {
         const Stopwatch watch(system.timings.estimates);
         stress_->update(problem_.body_, u);
@@ -271,9 +298,10 @@ void March<Model>::advance() {
     now_.control.reject(time);
     if (now_.control.too_small()) {
       if constexpr (!has_inertia<Model>)
-        if (!system.evaluate(problem_.u_, problem_.time_, dt) && system.moves_freely(problem_.u_))
-          newton.trouble = {Cause::unsupported, {}};
-      return fail(newton.trouble, problem_.time_, dt, rejected);
+        if (!system.evaluate(problem_.u_, problem_.time_, dt))
+          if (const Index part = system.free_part(problem_.u_); part >= 0) return unsupported(part, dt, rejected);
+      return fail(newton.trouble, problem_.time_, dt, rejected,
+                  newton.trouble.cause == Cause::contradicting_supports ? system.contradiction(time) : "");
     }
   }
 }

@@ -59,8 +59,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   template <class MeshType>
   ContactPair(const Contact<Model, Friction>& contact, const MeshType& mesh,
               const typename Model::Kinematics& kinematics)
-      : ContactRecord<dim>(contact.name, contact.side, contact.motion, mesh.side(contact.side).nodes,
-                           mesh.node_count()),
+      : ContactRecord<dim>(contact.name, contact.side, contact.motion, mesh.side(contact.side).nodes),
         tool_(contact.tool),
         friction_(contact.friction),
         enforcement_(contact.enforcement),
@@ -172,7 +171,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
                    Field* excess, Matrix& matrix, [[maybe_unused]] Couplings& couplings) {
     const rigid::Pose<dim> pose = motion_.at(time);
     if (const Trouble t = stretched(pose)) return t;
-    summary_ = {};
+    trial_summary_ = {};
     if constexpr (lags) dt_ = dt;
     trial_force_.setZero();
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
@@ -198,7 +197,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       state.sliding = node.sliding;
       state.force.setZero();
       state.pressure = node.touching ? node.pressure.value : 0;
-      summary_.stored += 0.5 * std::abs(state.pressure * state.gap - states_[k].pressure * states_[k].gap);
+      trial_summary_.stored += 0.5 * std::abs(state.pressure * state.gap - states_[k].pressure * states_[k].gap);
       pressures_[k] = node.pressure;
       if constexpr (with_friction) {
         if (excess) {
@@ -208,7 +207,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
           t.turned = t.turned || t.now.dot(t.before) < 0;
         }
         state.slip = node.memory.friction.slip;
-        summary_.max_slip = std::max(summary_.max_slip, state.slip);
+        trial_summary_.max_slip = std::max(trial_summary_.max_slip, state.slip);
       }
       if (!node.touching) continue;
       state.force = product(pose.rotation, node.force);
@@ -233,14 +232,14 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       }
 
       add(trial_force_, state.force);
-      ++summary_.touching;
-      summary_.sliding += node.sliding ? 1 : 0;
-      summary_.max_penetration = std::max(summary_.max_penetration, -at.gap);
-      summary_.bound += node.bound;
-      summary_.lag += std::abs(node.lag);
-      if (states_[k].touching) summary_.swing += node.lag;
-      summary_.dissipated += node.dissipated;
-      summary_.missed += node.missed;
+      ++trial_summary_.touching;
+      trial_summary_.sliding += node.sliding ? 1 : 0;
+      trial_summary_.max_penetration = std::max(trial_summary_.max_penetration, -at.gap);
+      trial_summary_.bound += node.bound;
+      trial_summary_.lag += std::abs(node.lag);
+      if (states_[k].touching) trial_summary_.swing += node.lag;
+      trial_summary_.dissipated += node.dissipated;
+      trial_summary_.missed += node.missed;
     }
     return {};
   }
@@ -325,7 +324,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
                                             (enforcement_.stick_stiffness(weight_[k]) * spacing_[k]));
       }
     if constexpr (iterates)
-      if (summary_.bound > 0) largest = std::max(largest, summary_.lag / summary_.bound);
+      if (trial_summary_.bound > 0) largest = std::max(largest, trial_summary_.lag / trial_summary_.bound);
     return largest;
   }
   /// Stiffens the enforcement, where the passes do not settle quickly enough.
@@ -352,6 +351,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     if constexpr (remembers) std::swap(committed_, trial_);
     std::swap(states_, trial_states_);
     pressures_.commit();
+    summary_ = trial_summary_;
     force_ = trial_force_;
     if constexpr (is_augmented<Enforcement>) stiffened_ = 1;  // what a converged step took stays
     if constexpr (passes || lags) begin_passes();
@@ -373,8 +373,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
 
  private:
   using ContactRecord<dim>::name_, ContactRecord<dim>::motion_, ContactRecord<dim>::nodes_, ContactRecord<dim>::states_,
-      ContactRecord<dim>::trial_states_, ContactRecord<dim>::summary_, ContactRecord<dim>::force_,
-      ContactRecord<dim>::trial_force_;
+      ContactRecord<dim>::trial_states_, ContactRecord<dim>::summary_, ContactRecord<dim>::trial_summary_,
+      ContactRecord<dim>::force_, ContactRecord<dim>::trial_force_;
 
   template <class MeshType>
   static Vec<Real, dim> on_tool(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose, Index node) {

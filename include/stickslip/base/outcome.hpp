@@ -18,11 +18,12 @@ enum class Cause {
   friction_failed,   ///< a friction law's slip did not converge, or it softens faster than its stiffness can follow
   singular_matrix,   ///< the factorisation met a zero pivot: a rigid-body mode or a limit point
   unsupported,       ///< a rigid-body motion that no support and no tool resists
-  not_converged,     ///< the iteration limit was reached
-  passes_failed,     ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
-  lag_feeds_back,    ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
-  tunnelled,         ///< a node's way over the step led through a tool, whose force it never felt
-  stalled,           ///< no step along the Newton direction lowers the residual
+  contradicting_supports,  ///< two supports that prescribe different values of one component
+  not_converged,           ///< the iteration limit was reached
+  passes_failed,           ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
+  lag_feeds_back,          ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
+  tunnelled,               ///< a node's way over the step led through a tool, whose force it never felt
+  stalled,                 ///< no step along the Newton direction lowers the residual
 };
 
 /// The sentence part that names a cause.
@@ -44,6 +45,8 @@ inline const char* describe(Cause cause) {
       return "the tangent matrix is singular";
     case Cause::unsupported:
       return "nothing holds the body: no support and no tool resists a rigid-body motion of it";
+    case Cause::contradicting_supports:
+      return "two supports contradict each other";
     case Cause::not_converged:
       return "the Newton iteration did not converge within its limit";
     case Cause::passes_failed:
@@ -96,8 +99,8 @@ struct [[nodiscard]] Outcome {
     if (trouble.place.kind == Place::Kind::contact_node)
       text += " (contact node " + std::to_string(trouble.place.number) + ")";
     if (!detail.empty()) text += ": " + detail;
-    return text + "; tried " + std::to_string(attempts) + " times down to a time increment of " +
-           brief(tried_step);
+    if (attempts == 0) return text;
+    return text + "; tried " + std::to_string(attempts) + " times down to a time increment of " + brief(tried_step);
   }
 };
 
