@@ -10,6 +10,7 @@
 #include <iterator>
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 namespace stickslip {
 
@@ -128,6 +129,11 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
   if (options.space_every > 0) stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
   problem_.prepare();
   problem_.require_agreement(options.end);
+  if constexpr (has_contact<Model>)
+    problem_.visit_contacts([&](const auto& pair) {
+      if (const std::string text = pair.warning_of_size(); !text.empty())
+        now_.warnings.add("tool_smaller_than_mesh", pair.name(), text, 0);
+    });
 }
 
 /// Passes over a step whose first one has converged, until another one would change nothing beyond the tolerance

@@ -233,6 +233,110 @@ TEST_CASE("supports, loads, contacts by name and tools that are nowhere") {
   COMPLAINS("contact \"top\"", (void)nowhere.march({}));
 }
 
+TEST_CASE("nodes that start deep inside a tool") {
+  // A unit block of elements of a quarter, over a floor half its height below.
+  const auto begins = [](rigid::Profile tool, Real start_depth = 0) {
+    auto parameters = good();
+    parameters.body = mesh::rectangle({.size = {1, 1}, .cells = {4, 4}});
+    parameters.contacts[0].side = "bottom";
+    parameters.contacts[0].tool = std::move(tool);
+    parameters.contacts[0].start_depth = start_depth;
+    parameters.contacts[0].name = "floor";
+    return complaint([&] {
+      Problem<Plane> p(parameters);
+      p.hold("top", 0).hold("top", 1);
+      (void)p.march({});
+    });
+  };
+  CHECK(begins(rigid::line({0, -0.5}, {1, 0})).empty());
+  // The wrong way round.
+  for (const char* part :
+       {"contact \"floor\": node ", " starts 0.5 deep inside the tool", "0.25 away", "wrong way round", "start_depth"})
+    CHECK_MESSAGE(says(begins(rigid::line({0, -0.5}, {-1, 0})), part), begins(rigid::line({0, -0.5}, {-1, 0})));
+  // A fit of up to an element; a deeper one where it is asked for.
+  CHECK(begins(rigid::line({0, 0.25}, {1, 0})).empty());
+  CHECK(says(begins(rigid::line({0, 0.26}, {1, 0})), "0.26 deep"));
+  CHECK(begins(rigid::line({0, 0.26}, {1, 0}), 0.3).empty());
+  CHECK(says(begins(rigid::line({0, 0.31}, {1, 0}), 0.3), "0.31 deep"));
+  CHECK(begins(rigid::line({0, -0.5}, {-1, 0}), infinity).empty());
+  // A wall that ends below the block's upper half: nodes past its open end see nothing, those behind its foot see its
+  // back. The node at the origin is named, not the others.
+  CHECK(says(begins(rigid::path({0.6, 0.5}, {0, -1}).straight(2)), "node 0 starts 0.6 deep"));
+  // Side walls and base of a cup that the block stands in: no node is behind any of them.
+  CHECK(begins(rigid::path({0, 1}, {0, -1}).straight(1).corner(pi / 2).straight(1).corner(pi / 2).straight(1)).empty());
+  CHECK(says(begins(rigid::line({0, -0.5}, {1, 0}), nan), "start_depth"));
+  CHECK(says(begins(rigid::line({0, -0.5}, {1, 0}), -1), "start_depth"));
+}
+
+TEST_CASE("the smallest size of a tool, and the warning about it") {
+  using rigid::path;
+  const auto size = [](const rigid::Profile& p) { return p.smallest_size(); };
+  CHECK(size(rigid::line({0, 0}, {1, 0})) == infinity);
+  CHECK(size(rigid::disc({3, 4}, 0.05)) == doctest::Approx(0.05));
+  CHECK(size(path({0, 0}, {1, 0}).straight(2)) == doctest::Approx(2));
+  CHECK(size(path({0, 0}, {1, 1}).straight(2).right(0.2, pi / 2).straight(1)) == doctest::Approx(0.2));
+  CHECK(size(path({0, 0}, {1, 1}).straight(2).left(0.2, pi / 2).straight(3)) > 2);  // re-entrant
+  const auto bar = [](Real angle) {
+    auto p = path({1, 2}, {std::cos(angle), std::sin(angle)});
+    for (const Real side : {4.0, 0.5, 4.0, 0.5}) p.straight(side).corner(-pi / 2);
+    return p.close();
+  };
+  for (const Real angle : {0.0, 0.3, 1.0}) CHECK(size(bar(angle)) == doctest::Approx(0.5).epsilon(1e-9));
+  CHECK(size(path({0, 0}, {0, 1}).straight(5).corner(-pi / 2).straight(0.1).corner(-pi / 2).straight(5).endless()) ==
+        doctest::Approx(0.1));  // a wall
+  CHECK(size(path({0, 0}, {0, 1}).straight(5).corner(-pi / 4).straight(0.1).corner(-pi / 4).straight(5).endless()) ==
+        infinity);  // a chamfer
+  CHECK(rigid::plane({0, 0, 0}, {0, 0, 1}).smallest_size() == infinity);
+  CHECK(rigid::sphere({1, 0, 0}, 0.3).smallest_size() == doctest::Approx(0.3));
+  CHECK(rigid::cylinder({1, 0, 0}, {1, 2, 3}, 0.3).smallest_size() == doctest::Approx(0.3));
+  CHECK(rigid::cone({1, 0, 0}, {1, 2, 3}, 0.3).smallest_size() == infinity);
+  CHECK(rigid::torus({1, 0, 0}, {1, 2, 3}, 5, 0.3).smallest_size() == doctest::Approx(0.3));
+  const rigid::Revolution pin(path({0, 0}, {-1, 0}).straight(0.2).corner(-pi / 2).straight(9), {0, 0, 0}, {0, 0, 1});
+  CHECK(pin.smallest_size() == doctest::Approx(0.2));
+  const rigid::Extruded rod(rigid::disc({0, 0}, 0.1), {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  CHECK(rod.smallest_size() == doctest::Approx(0.1));
+  CHECK(rigid::Tool<3>(rod).smallest_size() == doctest::Approx(0.1));
+
+  const auto warnings = [](Real radius) {
+    auto parameters = good();
+    parameters.contacts[0].tool = rigid::disc({0.5, 1 + radius}, radius);
+    Problem<Plane> p(parameters);
+    p.hold("bottom", 0).hold("bottom", 1);
+    auto march = p.march({.end = 1, .steps = 3});
+    CHECK(bool(march.finish()));
+    return march.warnings();
+  };
+  CHECK(warnings(0.2).empty());  // nodes are half a unit apart
+  const auto told = warnings(0.15);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].name == "tool_smaller_than_mesh");
+  CHECK(told[0].step == 0);
+  CHECK(told[0].count == 1);
+  for (const char* part : {"contact \"top\"", "0.15", "0.5"}) CHECK(says(told[0].text, part));
+}
+
+TEST_CASE("sides and cells") {
+  const auto message = [](auto change) { return after<Plane>(good(), [&](auto& p) { change(p.body); }); };
+  CHECK(says(message([](auto& m) { m.cells[3][0] = 99; }),
+             "cell 3 names a node that does not exist, 99: the mesh has 9"));
+  CHECK(says(message([](auto& m) { m.cells[2][1] = -7; }), "cell 2 names a node that does not exist, -7"));
+  CHECK(says(message([](auto& m) { m.nodes.push_back({5, 5}); }), "node 9 of the mesh is in no cell"));
+  CHECK(says(message([](auto& m) { m.sides["left"].nodes.push_back(9); }),
+             "side \"left\" names a node that does not ex"));
+  CHECK(says(message([](auto& m) { m.sides["left"].nodes[1] = -7; }),
+             "side \"left\" names a node that does not exist, -7"));
+  CHECK(says(message([](auto& m) { m.sides["left"].facets[1][0] = 1 << 30; }), "side \"left\", facet 1 names a node"));
+  CHECK(says(message([](auto& m) { m.sides["left"].facets[1][0] = -7; }), "side \"left\", facet 1 names a node"));
+  CHECK(says(message([](auto& m) { m.sides["left"].nodes.push_back(m.sides["left"].nodes[0]); }),
+             "side \"left\" has node"));
+  CHECK(says(message([](auto& m) {
+               auto f = m.sides["left"].facets[0];
+               std::swap(f[0], f[1]);
+               m.sides["left"].facets.push_back(f);
+             }),
+             "side \"left\" has a facet twice: 2 joins the nodes of 0"));
+}
+
 TEST_CASE("runs") {
   Problem<Plane> p(good());
   COMPLAINS("end", (void)p.march({.end = 0}));

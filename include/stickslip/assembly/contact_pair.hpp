@@ -7,6 +7,7 @@
 #include <stickslip/assembly/facet.hpp>
 #include <stickslip/assembly/node_couplings.hpp>
 #include <stickslip/assembly/sparse_matrix.hpp>
+#include <stickslip/base/brief.hpp>
 #include <stickslip/base/nodal.hpp>
 #include <stickslip/base/relaxation.hpp>
 #include <stickslip/geometry/passage.hpp>
@@ -63,9 +64,11 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         tool_(contact.tool),
         friction_(contact.friction),
         enforcement_(contact.enforcement),
+        start_depth_(contact.start_depth),
         weight_(nodes_.size(), 0.0),
         pressures_(nodes_.size()) {
     if (tool_.empty()) this->refuse("the tool has no surface");
+    if (!(start_depth_ >= 0)) this->refuse("start_depth must not be negative");
     if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
     if constexpr (with_friction)
       if constexpr (requires { friction_.validate(); }) friction_.validate();
@@ -132,17 +135,40 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     return c;
   }
 
-  /// Takes the positions at `time` for the start of sliding. Throws std::invalid_argument where the tool is nowhere.
+  /// The warning that nodes are too far apart for the tool, three times its smallest size: they may step over it. Empty
+  /// where they are not, or the tool does not tell its size.
+  std::string warning_of_size() const {
+    if constexpr (requires { tool_.smallest_size(); }) {
+      const Real size = tool_.smallest_size(), spacing = *std::min_element(spacing_.begin(), spacing_.end());
+      if (size < spacing / 3)
+        return "contact \"" + name_ + "\": the tool's smallest size, " + brief(size) +
+               ", is less than a third of the distance of the nodes of side \"" + this->side_ + "\", " +
+               brief(spacing) + ": they may step over it or snap around it";
+    }
+    return "";
+  }
+
+  /// Takes the positions at `time` for the start of sliding. Throws std::invalid_argument where the tool is nowhere, or
+  /// nodes lie deeper inside it than their neighbours are away: a tool the wrong way round, or one that ends too early,
+  /// so that nodes past its end lie behind it.
   template <class MeshType>
   void start(const MeshType& mesh, const Field& u, Real time) {
     const rigid::Pose<dim> pose = motion_.at(time);
     if (const Trouble t = stretched(pose)) this->refuse(describe(t.cause));
+    std::size_t worst = 0;
+    Real excess = 0;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const SurfacePoint<Real, dim> at = seen_from_tool(mesh, u, pose, nodes_[k]);
       if (!std::isfinite(at.gap)) this->refuse("the tool's position or the distance to it is not finite at the start");
       states_[k].gap = at.gap;
       if constexpr (with_friction) committed_[k].friction.place = at.place;
+      if (const Real e = -at.gap - std::max(spacing_[k], start_depth_) * (1 + 1e-9); e > excess) worst = k, excess = e;
     }
+    if (excess > 0)
+      this->refuse("node " + std::to_string(nodes_[worst]) + " starts " + brief(-states_[worst].gap) +
+                   " deep inside the tool, and its next neighbour is " + brief(spacing_[worst]) +
+                   " away: the tool is the wrong way round (the body must be on the left of a chain, or where normals "
+                   "point), or ends too early; for so deep a fit set start_depth");
     if constexpr (passes || lags) begin_passes();
   }
 
@@ -464,6 +490,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   Tool tool_;
   [[no_unique_address]] Only<with_friction, typename Friction::Law, Contact<Model, Friction>> friction_;
   Enforcement enforcement_;
+  Real start_depth_;  // that nodes may lie inside the tool at the start
   std::vector<Real> weight_;
   [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
   StiffRelations<dim> pressures_;

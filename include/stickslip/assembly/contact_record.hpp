@@ -79,7 +79,7 @@ class ContactRecord {
         trial_states_(nodes_.size()) {
     if (nodes_.empty()) refuse("the side has no nodes");
   }
-  [[noreturn]] void refuse(const char* reason) const {
+  [[noreturn]] void refuse(const std::string& reason) const {
     throw std::invalid_argument("contact \"" + name_ + "\": " + reason);
   }
 
