@@ -222,6 +222,7 @@ void March<Model>::advance() {
   Field& u = trial_;
   Index rejected = 0;
   const auto unsupported = [&](Index part, Real dt, Index attempts) {
+    if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
     fail({Cause::unsupported, {}}, problem_.time_, dt, attempts, system.part_name(part));
   };
   if constexpr (!has_inertia<Model>)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/assembly/system.hpp>
+#include <stickslip/base/brief.hpp>
 #include <stickslip/base/nodal.hpp>
 
 #include <algorithm>
@@ -83,12 +84,16 @@ class Scene {
     return *this;
   }
 
-  /// Sets the velocity at time 0, of all nodes alike or as a function of the reference position [length / time].
+  /// Sets the velocity at time 0, of all nodes alike or as a function of the reference position [length / time]. Throws
+  /// std::invalid_argument later on, where a velocity would contradict the motion so far.
   Scene& start_velocity(const Vec<Real, dim>& velocity) requires has_inertia<Model> {
     return start_velocity([velocity](const Vec<Real, dim>&) { return velocity; });
   }
   Scene& start_velocity(const std::function<Vec<Real, dim>(const Vec<Real, dim>&)>& velocity) requires
       has_inertia<Model> {
+    if (time_ != 0)
+      throw std::invalid_argument("start velocity: the run has begun, it is at time " + brief(time_) + " already");
+    changed_ = true;  // the start is made again, if it has been
     for (Index n = 0; n < body_.mesh().node_count(); ++n) {
       const Vec<Real, dim> v = velocity(body_.mesh().nodes[static_cast<std::size_t>(n)]);
       if (!is_finite(v)) throw std::invalid_argument("start velocity: it is not finite at node " + std::to_string(n));

@@ -92,6 +92,7 @@ TEST_CASE("profiles") {
   COMPLAINS("angle", path({0, 0}, {1, 0}).right(1, 0));
   COMPLAINS("angle", path({0, 0}, {1, 0}).left(1, 7));
   COMPLAINS("angle", path({0, 0}, {1, 0}).left(1, nan));
+  COMPLAINS("corner's angle", path({0, 0}, {1, 0}).straight(1).corner(nan));
   COMPLAINS("endless", path({0, 0}, {1, 0}).endless());
   COMPLAINS("endless", path({0, 0}, {1, 0}).right(1, 1).endless());
   COMPLAINS("end where it starts", path({0, 0}, {1, 0}).straight(1).close());

@@ -37,6 +37,7 @@ class Profile {
   Profile& left(Real radius, Real angle) { return add_arc(radius, angle, -1); }
   /// Turns on the spot by `angle` [rad], positive to the left: a sharp corner.
   Profile& corner(Real angle) {
+    if (!std::isfinite(angle)) throw std::invalid_argument("profile: a corner's angle must be finite");
     heading_ = rotate(heading_, std::cos(angle), std::sin(angle));
     return *this;
   }
