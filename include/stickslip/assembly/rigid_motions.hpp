@@ -23,16 +23,22 @@ class RigidMotions {
   static constexpr int dim = Kinematics::dim;
   static constexpr int count = Kinematics::hoop ? 1 : dim + dim * (dim - 1) / 2;
 
-  RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Field& u, const Parts& parts)
-      : nodes_(nodes), u_(u), parts_(parts), of_(static_cast<std::size_t>(parts.count())) {
+  RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Parts& parts)
+      : nodes_(nodes), parts_(parts), of_(static_cast<std::size_t>(parts.count())) {
+    u_.setZero(static_cast<Index>(nodes.size()) * dim);  // room for them
     for (Index n = 0; n < static_cast<Index>(nodes.size()); ++n) ++part(n).nodes;
     for (Index n = 0; n < static_cast<Index>(nodes.size()); ++n) add(part(n).centre, X(n), 1 / Real(part(n).nodes));
     for (Index n = 0; n < static_cast<Index>(nodes.size()); ++n)
       part(n).extent = std::max(part(n).extent, minus(X(n), part(n).centre).norm());
   }
 
-  /// Takes what resists them: the supports, and the matrix K.
-  void take(const Dofs& dofs, const SparseView& matrix) {
+  /// Takes what resists them at the displacements u: the supports, and the matrix K.
+  void take(const Field& u, const Dofs& dofs, const SparseView& matrix) {
+    u_ = u;
+    for (OfPart& of : of_) {
+      of.resistance.setZero();
+      of.stiffness = 0;
+    }
     for (Index j = 0; j < matrix.size; ++j)
       for (Index s = matrix.column_start[j]; s < matrix.column_start[j + 1]; ++s) {
         Real& stiffness = part(dofs.component(j) / dim).stiffness;
@@ -113,7 +119,7 @@ class RigidMotions {
   }
 
   const std::vector<Vec<Real, dim>>& nodes_;
-  const Field& u_;
+  Field u_;
   const Parts& parts_;
   std::vector<OfPart> of_;
 };

@@ -66,6 +66,7 @@ class System {
         pairs_(pairs),
         inertia_(inertia),
         parts_(body.mesh()),
+        motions_(body.mesh().nodes, parts_),
         prescribed_(dim, body.mesh().extent()),
         extent_(body.mesh().extent()),
         pattern_revision_(revision) {
@@ -74,6 +75,7 @@ class System {
     for (const SideValue& l : loads)
       prescribed_.load(l, body.mesh().side(l.side).nodes, nodal_areas(body.mesh(), body.kinematics(), l.side));
     dofs_ = prescribed_.unknowns_of(components);
+    leaning_ = without_support();
     SparsityPattern pattern(dofs_, BodyType::storage);
     body.couple(pattern);
     matrix_.build(pattern);
@@ -254,11 +256,10 @@ class System {
   /// A part of the body of which nothing resists some rigid-body motion at the displacements u: no support, and not the
   /// tangent of the last evaluation. With `moved`, one that besides has moved so in that displacement: what balance
   /// leaves open. -1 if there is none; see `part_name`.
-  Index free_part(const Field& u, const Field* moved = nullptr) const {
-    RigidMotions<typename Model::Kinematics> motions(body_.mesh().nodes, u, parts_);
-    motions.take(dofs_, matrix_.view());
+  Index free_part(const Field& u, const Field* moved = nullptr) {
+    motions_.take(u, dofs_, matrix_.view());
     for (Index part = 0; part < parts_.count(); ++part) {
-      const std::vector<Field> free = motions.unresisted(part, moved ? 10 * norm_ : 0);
+      const std::vector<Field> free = motions_.unresisted(part, moved ? 10 * norm_ : 0);
       if (free.empty()) continue;
       if (!moved) return part;
       Real share = 0, whole = 0;
@@ -270,23 +271,19 @@ class System {
     return -1;
   }
   /// Whether there is one.
-  bool moves_freely(const Field& u, const Field* moved = nullptr) const { return free_part(u, moved) >= 0; }
+  bool moves_freely(const Field& u, const Field* moved = nullptr) { return free_part(u, moved) >= 0; }
   /// A part of the body that may shift in some direction, for it has no support there and touches no tool; at the start
   /// of a run (`ever`), for it has no node that could. -1 if there is none. Deformation resists no shift.
   Index loose_part([[maybe_unused]] bool ever) const {
-    std::vector<std::array<bool, static_cast<std::size_t>(dim)>> held(static_cast<std::size_t>(parts_.count()));
-    for (auto& of : held) of.fill(false);
-    for (Index c = 0; c < dofs_.components(); ++c)
-      if (dofs_.equation(c) == Dofs::constrained)
-        held[static_cast<std::size_t>(parts_.at(c / dim))][static_cast<std::size_t>(c % dim)] = true;
-    if constexpr (with_contact)
-      for_each_contact(pairs_, [&](const auto& pair) {
-        for (std::size_t k = 0; k < pair.nodes().size(); ++k)
-          if (ever || pair.touches(k)) held[static_cast<std::size_t>(parts_.at(pair.nodes()[k]))].fill(true);
-      });
-    for (std::size_t part = 0; part < held.size(); ++part)
-      for (std::size_t i = Model::Kinematics::hoop ? dim - 1 : 0; i < dim; ++i)
-        if (!held[part][i]) return static_cast<Index>(part);
+    for (const Index part : leaning_) {
+      bool held = false;
+      if constexpr (with_contact)
+        for_each_contact(pairs_, [&](const auto& pair) {
+          for (std::size_t k = 0; k < pair.nodes().size() && !held; ++k)
+            held = parts_.at(pair.nodes()[k]) == part && (ever || pair.touches(k));
+        });
+      if (!held) return part;
+    }
     return -1;
   }
   /// What a part is called in a sentence; empty where the body is of one.
@@ -324,6 +321,23 @@ class System {
     norm_ = residual_.norm();
     if (!std::isfinite(norm_)) return {Cause::not_finite, {}};
     return {};
+  }
+
+  // The parts that have no support against some shift; in axisymmetry against that along the axis.
+  std::vector<Index> without_support() const {
+    constexpr Index first = Model::Kinematics::hoop ? dim - 1 : 0;
+    std::vector<bool> held(static_cast<std::size_t>(parts_.count() * dim), false);
+    for (Index c = 0; c < dofs_.components(); ++c)
+      if (dofs_.equation(c) == Dofs::constrained)
+        held[static_cast<std::size_t>(parts_.at(c / dim) * dim + c % dim)] = true;
+    std::vector<Index> without;
+    for (Index part = 0; part < parts_.count(); ++part)
+      for (Index i = first; i < dim; ++i)
+        if (!held[static_cast<std::size_t>(part * dim + i)]) {
+          without.push_back(part);
+          break;
+        }
+    return without;
   }
 
   template <class Visit>
@@ -378,6 +392,8 @@ class System {
   Matrix matrix_;
   [[no_unique_address]] Only<keeps_couplings<Model>, NodeCouplings<dim>, System> couplings_;
   Parts parts_;
+  RigidMotions<typename Model::Kinematics> motions_;
+  std::vector<Index> leaning_;  // parts that only a tool could hold against some shift
   Prescribed prescribed_;
   Field internal_, contact_, external_, balance_, residual_;
   Field excess_;  // forces that closing the stiff relations' defects adds, by component
