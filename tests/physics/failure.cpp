@@ -97,6 +97,23 @@ TEST_CASE("a rejected step leaves no trace") {
   CHECK(q->max_plastic_strain() == p->max_plastic_strain());
 }
 
+TEST_CASE("equal steps that had to be cut to a millionth of a step come back to their grid within some steps") {
+  // What happens at 0.5501 only steps below 1e-7 get over.
+  const Problem<M>* scene = nullptr;
+  auto p = block([&](Real t) { return scene && scene->time() < 0.5501 && t >= 0.5501 && t - scene->time() > 1e-7; });
+  scene = p.get();
+  auto march = p->march({.end = 1, .steps = 10, .tolerance = 1e-10});
+  std::vector<Real> times;
+  for (const auto& step : march) times.push_back(step.time);
+  CHECK(bool(march.outcome()));
+  CHECK(march.report().steps < 100);
+  MESSAGE(march.report().steps << " steps, " << march.report().rejected_steps << " cut");
+  for (int k = 1; k <= 10; ++k) CHECK(std::find(times.begin(), times.end(), k / 10.0) != times.end());
+  auto q = block([](Real) { return false; });
+  CHECK(bool(q->march({.end = 1, .steps = 10, .tolerance = 1e-10}).finish()));
+  CHECK((p->displacement() - q->displacement()).norm() < 0.02 * q->displacement().norm());  // less lags in short steps
+}
+
 TEST_CASE("a drive that turns elements inside out") {
   using Body = Lone<EigenLdlt>;
   Problem<Body> p({.body = mesh::rectangle({.cells = {3, 3}}), .material = material<Hencky>()});
