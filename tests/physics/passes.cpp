@@ -150,15 +150,20 @@ TEST_CASE("a step that is refused after its passes leaves neither multipliers no
     return p;
   };
   auto refused = scene(), fresh = scene();
-  auto march = refused->march({.end = 1, .steps = 2, .smallest = 0.1});
+  for (auto* p : {&refused, &fresh}) {
+    (*p)->hold("top", 0);
+    CHECK(bool((*p)->march({.end = 0.5, .steps = 1}).finish()));
+  }
+  const Index touching = refused->contact("floor").summary().touching;
+  refused->release("top", 0);
+  auto march = refused->march({.end = 1, .steps = 1, .smallest = 0.1});
   CHECK_FALSE(bool(march.finish()));
   REQUIRE(march.outcome().trouble.cause == Cause::unsupported);  // the loads balance, but nothing holds it along x
   CHECK(march.outcome().attempts == 1);
   CHECK(march.report().passes > 1);
-  CHECK(refused->contact("floor").summary().touching == 0);
+  CHECK(refused->contact("floor").summary().touching == touching);
   refused->hold("top", 0);
-  fresh->hold("top", 0);
-  auto again = refused->march({.end = 1, .steps = 2}), direct = fresh->march({.end = 1, .steps = 2});
+  auto again = refused->march({.end = 1, .steps = 1}), direct = fresh->march({.end = 1, .steps = 1});
   CHECK(bool(again.finish()));
   CHECK(bool(direct.finish()));
   CHECK(again.report().passes == direct.report().passes);

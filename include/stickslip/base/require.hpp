@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-/// What parameters must be: std::invalid_argument with one sentence that begins with `what`, the input's name. NaN meets
-/// none of it.
+/// What parameters must be: std::invalid_argument with one sentence that begins with `what`, the input's name. NaN
+/// meets none of it.
 namespace stickslip::require {
 
 inline void finite(Real x, const char* what) {

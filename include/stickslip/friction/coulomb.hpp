@@ -21,9 +21,7 @@ struct Coulomb {
   FrictionBound<S> bound(const FrictionPoint<S>& at) const {
     return {at.pressure * mu, S(mu), S(0)};
   }
-  void validate() const {
-    require::not_negative(mu, "Coulomb friction: the coefficient mu");
-  }
+  void validate() const { require::not_negative(mu, "Coulomb friction: the coefficient mu"); }
 };
 
 /// The paper's law: Coulomb's bound at the last converged normal force.

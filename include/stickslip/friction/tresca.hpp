@@ -23,9 +23,7 @@ struct Tresca {
   FrictionBound<S> bound(const FrictionPoint<S>& at) const {
     return {S(tau * at.area), S(0), S(0)};
   }
-  void validate() const {
-    require::not_negative(tau, "Tresca friction: the shear stress tau");
-  }
+  void validate() const { require::not_negative(tau, "Tresca friction: the shear stress tau"); }
 };
 static_assert(friction_symmetry<Tresca>() == Symmetry::symmetric);
 

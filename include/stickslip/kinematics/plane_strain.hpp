@@ -19,9 +19,7 @@ struct PlaneStrain {
   /// Extent normal to the plane at reference point X: volume per area of the section [length].
   Real measure(const Vec<Real, 2>&) const { return thickness; }
 
-  void validate() const {
-    require::positive(thickness, "plane strain: the thickness");
-  }
+  void validate() const { require::positive(thickness, "plane strain: the thickness"); }
 };
 
 }  // namespace stickslip

@@ -20,9 +20,7 @@ struct PerfectPlasticity {
   }
   /// Plastic work per reference volume up to p: the integral of the flow stress.
   Real work(Real p) const { return yield * p; }
-  void validate() const {
-    require::positive(yield, "perfect plasticity: the yield stress");
-  }
+  void validate() const { require::positive(yield, "perfect plasticity: the yield stress"); }
 };
 
 /// sigma(p) = yield + modulus p. A negative modulus softens.
