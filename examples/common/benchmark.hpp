@@ -164,6 +164,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark be
   r.unknowns = problem.unknowns();
   r.outcome = march.outcome();
   r.report = march.report();
+  r.warnings = march.warnings();
   r.max_plastic_strain = problem.max_plastic_strain();
   if constexpr (books == Books::kept) r.energies = ledger->energies();
   r.checks_self_penetration = static_cast<bool>(benchmark.self_penetration);

@@ -94,6 +94,9 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
       j["self_penetration_from_mm"] = nullptr;
   }
   if (!r.advice.empty()) j["advice"] = r.advice;
+  j["warnings"] = nlohmann::ordered_json::array();
+  for (const auto& w : r.warnings)
+    j["warnings"].push_back({{"name", w.name}, {"text", w.text}, {"step", w.step}, {"count", w.count}});
   j["history"] = {{"time_s", r.time_s}, {"displacement_mm", r.travel_mm}, {"force_N", r.force_N}};
   return j;
 }
@@ -204,8 +207,8 @@ int conclude(const Options& options, const Record& r, Outputs& outputs) {
     });
   if (!options.quiet && options.json != "-")
     std::printf(
-        "%s %s mu %.2f %s: %d steps, %d iterations, %d rejected; %.1f mm, %.0f N; penetration %.4f mm, slip %.2f mm, "
-        "lag %.3f; %.1f ms\n  estimated errors: lag %.2g %%, steps %.2g %%, penetration %.2g %%, mesh %.2g %%\n",
+        "%s %s mu %.2f %s: %d steps, %d iterations, %d rejected; %.1f mm, %.0f N; penetration %.4g mm, slip %.4g mm, "
+        "lag %.3g; %.1f ms\n  estimated errors: lag %.2g %%, steps %.2g %%, penetration %.2g %%, mesh %.2g %%\n",
         r.labels.name.c_str(), options.friction.c_str(), options.mu, options.solver.c_str(), r.report.steps,
         r.report.iterations, r.report.rejected_steps, r.travel_mm.back(), r.force_N.back(), r.report.max_penetration,
         r.report.max_slip, r.report.max_lag, 1e3 * r.seconds, 100 * r.report.errors.lag, 100 * r.report.errors.time,
@@ -216,6 +219,9 @@ int conclude(const Options& options, const Record& r, Outputs& outputs) {
                  r.labels.name.c_str(), *r.self_penetration_mm);
   if (outputs.missing().size() > 1)
     std::cerr << r.labels.name << ": " << outputs.missing().size() << " files could not be written\n";
+  for (const auto& w : r.warnings)
+    std::cerr << r.labels.name << ": warning: " << w.text
+              << (w.count > 1 ? " (" + std::to_string(w.count) + " times)" : "") << '\n';
   if (!r.outcome) std::cerr << r.labels.name << ": " << r.outcome.message() << '\n';
   return !r.outcome ? 1 : outputs.missing().empty() ? 0 : output_missing;
 }

@@ -8,6 +8,7 @@
 #include <stickslip/base/archive.hpp>
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/solve/report.hpp>
+#include <stickslip/solve/warnings.hpp>
 #include <stickslip/verify/energy.hpp>
 
 #include <chrono>
@@ -33,6 +34,7 @@ struct Record {
   bool symmetric_storage = false;
   stickslip::Outcome outcome{};
   stickslip::RunReport report{};
+  std::vector<stickslip::Warning> warnings{};
   std::vector<stickslip::StepReport> steps{};
   std::vector<double> time_s{}, travel_mm{}, force_N{};  ///< one entry more than steps: the start
   double max_plastic_strain = 0;
@@ -62,8 +64,8 @@ class Clock {
 void show_progress(const Options& options, const Record& record, double fraction);
 void end_progress(const Options& options);
 
-/// Writes JSON, CSV, pictures and the one-line summary as far as they are asked for. Returns the exit code: 0, 1 if the
-/// run failed, or output_missing.
+/// Writes JSON, CSV, pictures, the warnings and the one-line summary as far as they are asked for. Returns the exit
+/// code: 0, 1 if the run failed, or output_missing.
 int conclude(const Options& options, const Record& record, Outputs& outputs);
 
 }  // namespace examples

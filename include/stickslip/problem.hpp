@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 namespace stickslip {
@@ -43,6 +44,9 @@ class March : public Course {
     March* march_;
   };
 
+  March(const March&) = delete;
+  March& operator=(const March&) = delete;
+
   Iterator begin() {
     if (!begun_) advance();
     begun_ = true;
@@ -68,9 +72,17 @@ class March : public Course {
   Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
   bool feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact);
   void retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model>;
-  void look_for_supports(Trouble& trouble, std::string& detail);
+
+  void require_own() const {
+    if (state_ != problem_.revision_)
+      throw std::invalid_argument(
+          "march: the problem is no longer in the state that this march goes on from: another march has moved it; "
+          "begin "
+          "a new one");
+  }
 
   Scene<Mechanical>& problem_;
+  Index state_;  // revision of the converged state that the next step starts from
   Newton<SolverOf<Model>, has_near_tangent<Model>()> newton_;
   Field trial_, driven_, pass_start_;
   std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
@@ -111,6 +123,7 @@ template <class Model>
 March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
     : Course(options, problem.time_),
       problem_(problem),
+      state_(problem.revision_),
       newton_(NewtonOptions{.tolerance = options.tolerance,
                             .max_iterations = options.max_iterations,
                             .line_search = options.line_search}) {
@@ -123,6 +136,12 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
                           std::to_string(apart.first[0]) + " and " + std::to_string(apart.first[1]) +
                           " (from 0) among them: what was meshed in blocks that were not joined comes apart there",
                       0);
+  problem_.require_agreement(options.end);
+  if constexpr (has_contact<Model>)
+    problem_.visit_contacts([&](const auto& pair) {
+      if (const std::string text = pair.warning_of_size(); !text.empty())
+        now_.warnings.add("tool_smaller_than_mesh", pair.name(), text, 0);
+    });
 }
 
 /// Passes over a step whose first one has converged, until another one would change nothing beyond the tolerance
@@ -205,27 +224,11 @@ void March<Model>::retry(Field& u, Real time, Real dt, NewtonReport& newton) req
   newton = again;
 }
 
-/// Names the reason of a step that could not be taken, where it is that nothing holds the body, or friction alone and
-/// not enough.
-template <class Model>
-void March<Model>::look_for_supports(Trouble& trouble, [[maybe_unused]] std::string& detail) {
-  System<Mechanical>& system = *problem_.system_;
-  [[maybe_unused]] std::string sliding;
-  if constexpr (has_friction<Model>) sliding = system.sliding_contacts();
-  if (!system.evaluate(problem_.u_, problem_.time_, 0) && system.moves_freely(problem_.u_)) {
-    trouble = {Cause::unsupported, {}};
-    return;
-  }
-  if constexpr (has_friction<Model>)
-    if (system.held_by_friction(problem_.u_, problem_.time_)) {
-      trouble = {Cause::slides, {}};
-      detail = sliding.empty() ? system.sliding_contacts() : sliding;
-    }
-}
-
 template <class Model>
 void March<Model>::serialize(Archive& archive) {
+  problem_.prepare();
   problem_.serialize(archive);
+  if (archive.gives()) state_ = problem_.revision_;
   archive.same("solver", type_name<SolverOf<Model>>());
   newton_.serialize(archive, *problem_.system_);
   now_.work = newton_.counts;
@@ -238,9 +241,19 @@ void March<Model>::serialize(Archive& archive) {
 template <class Model>
 void March<Model>::advance() {
   if (!begin_step(newton_.counts)) return;
+  require_own();
+  problem_.prepare();  // supports and loads may have changed since the last step
   System<Mechanical>& system = *problem_.system_;
   Field& u = trial_;
   Index rejected = 0;
+  const auto unsupported = [&](Index part, Real dt, Index attempts) {
+    if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
+    fail({Cause::unsupported, {}}, problem_.time_, dt, attempts, system.part_name(part));
+  };
+  if constexpr (!has_inertia<Model>)
+    if (!problem_.proven_)
+      if (const Index part = system.loose_part(true); part >= 0)
+        return unsupported(part, now_.control.next() - problem_.time_, 0);
   const auto give_up = [&] {
     ++rejected;
     ++now_.report.rejected_steps;
@@ -297,16 +310,17 @@ void March<Model>::advance() {
       estimate(step);
       Cause refusal = Cause::none;
       // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
-      if constexpr (!has_inertia<Model>)
-        if (problem_.last_dt_ == 0) {
-          driven_ = u - problem_.u_;
-          if (system.moves_freely(u, &driven_)) refusal = Cause::unsupported;
-        }
+      if constexpr (!has_inertia<Model>) {
+        driven_ = u - problem_.u_;
+        if (!problem_.proven_ || driven_.lpNorm<Eigen::Infinity>() > system.extent() || system.loose_part(false) >= 0)
+          if (const Index part = system.free_part(u, &driven_); part >= 0) return unsupported(part, dt, rejected + 1);
+      }
       if constexpr (has_lag<Model>())
         if (refusal == Cause::none && feeds_back(u, time, dt, contact)) refusal = Cause::lag_feeds_back;
       if (refusal != Cause::none) return fail({refusal, {}}, problem_.time_, dt, rejected + 1);
       accept(step, first_iterations, error);
       problem_.accept(u, time, dt);
+      state_ = problem_.revision_;
       if (stress_ && now_.report.steps % options_.space_every == 0) {
         const Stopwatch watch(system.timings.estimates);
         stress_->update(problem_.body_, u);
@@ -318,7 +332,18 @@ void March<Model>::advance() {
     now_.control.reject(time);
     if (now_.control.too_small()) {
       std::string detail;
-      if constexpr (!has_inertia<Model>) look_for_supports(newton.trouble, detail);
+      if (newton.trouble.cause == Cause::contradicting_supports) detail = system.contradiction(time);
+      if constexpr (!has_inertia<Model>) {
+        [[maybe_unused]] std::string sliding;
+        if constexpr (has_friction<Model>) sliding = system.sliding_contacts();
+        if (!system.evaluate(problem_.u_, problem_.time_, dt))
+          if (const Index part = system.free_part(problem_.u_); part >= 0) return unsupported(part, dt, rejected);
+        if constexpr (has_friction<Model>)
+          if (system.held_by_friction(problem_.u_, problem_.time_)) {
+            newton.trouble = {Cause::slides, {}};
+            detail = sliding.empty() ? system.sliding_contacts() : sliding;
+          }
+      }
       return fail(newton.trouble, problem_.time_, dt, rejected, detail);
     }
   }

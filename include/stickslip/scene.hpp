@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/assembly/system.hpp>
+#include <stickslip/base/brief.hpp>
 #include <stickslip/base/nodal.hpp>
 
 #include <algorithm>
@@ -42,17 +43,36 @@ class Scene {
     if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
     if constexpr (has_inertia<Model>) inertia_.emplace(body_, validated(parameters.inertia));
     u_.setZero(body_.mesh().node_count() * dim);
-    last_increment_ = u_;
+    last_increment_ = reactions_ = u_;
     if constexpr (has_inertia<Model>) increment_before_ = u_;
   }
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
+  // Supports and loads may be given at any time, between the steps of a march as well: they count from the next step
+  // on.
+
   /// Holds a displacement component of a side at zero.
   Scene& hold(const std::string& side, Index component) { return drive(side, component, nullptr); }
-  /// Drives a displacement component of a side: value(time) [length].
+  /// Drives a displacement component of a side: value(time) [length]. Throws std::invalid_argument where another
+  /// support prescribes another value of the component at a node now.
   Scene& drive(const std::string& side, Index component, std::function<Real(Real)> value) {
     driven_.push_back(checked({side, component, std::move(value)}));
+    Prescribed supports(dim, body_.mesh().extent());
+    for (const SideValue& d : driven_) supports.drive(d, body_.mesh().side(d.side).nodes);
+    if (const std::string fault = supports.contradiction(time_); !fault.empty()) {
+      driven_.pop_back();
+      refuse_supports(fault);
+    }
+    return *this;
+  }
+  /// Takes the supports of a side in one component away: what `hold` and `drive` on that side gave.
+  Scene& release(const std::string& side, Index component) {
+    require_component(side, component);
+    if (std::erase_if(driven_, [&](const SideValue& d) { return d.side == side && d.component == component; }) == 0)
+      throw std::invalid_argument("release of side \"" + side + "\": it has no support in component " +
+                                  std::to_string(component));
+    changed_ = true;
     return *this;
   }
   /// Loads a side with a total dead force in one component, spread over its reference area: value(time) [force].
@@ -64,12 +84,16 @@ class Scene {
     return *this;
   }
 
-  /// Sets the velocity at time 0, of all nodes alike or as a function of the reference position [length / time].
+  /// Sets the velocity at time 0, of all nodes alike or as a function of the reference position [length / time]. Throws
+  /// std::invalid_argument later on, where a velocity would contradict the motion so far.
   Scene& start_velocity(const Vec<Real, dim>& velocity) requires has_inertia<Model> {
     return start_velocity([velocity](const Vec<Real, dim>&) { return velocity; });
   }
   Scene& start_velocity(const std::function<Vec<Real, dim>(const Vec<Real, dim>&)>& velocity) requires
       has_inertia<Model> {
+    if (time_ != 0)
+      throw std::invalid_argument("start velocity: the run has begun, it is at time " + brief(time_) + " already");
+    changed_ = true;  // the start is made again, if it has been
     for (Index n = 0; n < body_.mesh().node_count(); ++n) {
       const Vec<Real, dim> v = velocity(body_.mesh().nodes[static_cast<std::size_t>(n)]);
       if (!is_finite(v)) throw std::invalid_argument("start velocity: it is not finite at node " + std::to_string(n));
@@ -79,7 +103,7 @@ class Scene {
   }
 
   Real time() const { return time_; }
-  /// The discrete system of the last run; it exists once a march has begun.
+  /// The discrete system of the last step; it exists once a march has begun.
   const System<Model>& system() const {
     if (!system_) throw std::invalid_argument("the problem has no system before its first march");
     return *system_;
@@ -114,8 +138,7 @@ class Scene {
     const auto& nodes = body_.mesh().side(side).nodes;
     require_component(side, component);
     Real sum = 0;
-    if (system_)
-      for (const Index n : nodes) sum += reactions_[n * dim + component];
+    for (const Index n : nodes) sum += reactions_[n * dim + component];
     return sum;
   }
 
@@ -135,12 +158,17 @@ class Scene {
 
   // Makes the discrete system, unless supports and loads are the same as before, and at time 0 the state to start from.
   void prepare() {
-    if (system_) return;
+    if (system_ && !changed_) return;
+    const Timings spent = system_ ? system_->timings : Timings{};
+    system_.reset();
+    ++numberings_;
     if constexpr (has_inertia<Model>)
-      system_ = std::make_unique<System<Model>>(body_, pairs_, *inertia_, driven_, loads_);
+      system_ = std::make_unique<System<Model>>(body_, pairs_, *inertia_, driven_, loads_, numberings_);
     else
-      system_ = std::make_unique<System<Model>>(body_, pairs_, inertia_, driven_, loads_);
-    reactions_.setZero(u_.size());
+      system_ = std::make_unique<System<Model>>(body_, pairs_, inertia_, driven_, loads_, numberings_);
+    system_->timings = spent;
+    changed_ = false;
+    proven_ = false;
     if (time_ != 0) return;
     const auto require = [](const Trouble& t) {
       if (t) throw std::invalid_argument(std::string("the start is not a state: ") + describe(t.cause));
@@ -150,6 +178,18 @@ class Scene {
       require(system_->measure(u_));
     }
     if constexpr (has_inertia<Model>) require(system_->start(u_, time_));
+  }
+
+  // Throws where two supports contradict each other on the way to a time, as far as a look at some times tells.
+  void require_agreement(Real end) const {
+    constexpr int looks = 64;
+    for (int k = 0; k <= looks; ++k)
+      if (const std::string fault = system_->contradiction(time_ + (end - time_) * k / looks); !fault.empty())
+        refuse_supports(fault);
+  }
+  [[noreturn]] static void refuse_supports(const std::string& fault) {
+    throw std::invalid_argument("two supports contradict each other: " + fault +
+                                "; release() takes a side's supports away");
   }
 
   // Guesses the displacements after a step dt: the last increment again; for lack of one, with inertia those of
@@ -179,6 +219,8 @@ class Scene {
     last_dt_ = dt;
     u_ = u;
     time_ = time;
+    proven_ = true;
+    ++revision_;
     for (Index c = 0; c < system_->dofs().components(); ++c) reactions_[c] = system_->reaction(c);
   }
 
@@ -205,6 +247,9 @@ class Scene {
       inertia_->serialize(archive);
     }
     if constexpr (with_contact) for_each_contact(pairs_, [&](auto& pair) { pair.serialize(archive); });
+    if (!archive.gives()) return;
+    proven_ = time_ != 0;
+    ++revision_;
   }
 
   template <class Friction>
@@ -239,11 +284,8 @@ class Scene {
   SideValue checked(SideValue value) {
     const auto& nodes = body_.mesh().side(value.side).nodes;
     if (nodes.empty()) throw std::invalid_argument("side \"" + value.side + "\" has no nodes");
-    for (const Index n : nodes)
-      if (n < 0 || n >= body_.mesh().node_count())
-        throw std::invalid_argument("side \"" + value.side + "\" names a node that does not exist");
     require_component(value.side, value.component);
-    system_.reset();  // supports decide the numbering
+    changed_ = true;  // supports decide the numbering
     return value;
   }
 
@@ -257,6 +299,10 @@ class Scene {
   Real time_ = 0;
   Real last_dt_ = 0;              // 0: there is no increment to extrapolate
   Real increment_before_dt_ = 0;  // 0: nor a bend
+  bool changed_ = false;          // supports or loads, since the system was made
+  bool proven_ = false;           // that they hold the body, by a step
+  Index numberings_ = 0;          // systems that were made
+  Index revision_ = 0;            // of the converged state, for marches to tell whether it is still theirs
 };
 
 }  // namespace stickslip

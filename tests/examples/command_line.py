@@ -13,7 +13,7 @@ program, pressed_block = sys.argv[1:]
 KEYS = """benchmark friction mu solver kinematics material elements unknowns symmetric_storage completed steps iterations
 rejected_steps factorizations indefinite_factorizations inner_iterations seconds_total seconds_assembly seconds_contact seconds_factorization
 seconds_solve seconds_estimates factor_mb peak_memory_mb max_penetration_mm max_slip_mm max_plastic_strain max_lag estimated_error_lag
-estimated_error_time estimated_error_penetration estimated_error_space final_force_N history""".split()
+estimated_error_time estimated_error_penetration estimated_error_space final_force_N warnings history""".split()
 checks = 0
 
 
@@ -122,6 +122,15 @@ with tempfile.TemporaryDirectory() as folder:
     check(len(lines) == result["steps"] + 2, "history of the part that ran")
     for name in ("pressed_block.pvd", "force.png", "mesh.svg"):
         check((folder / "files" / name).stat().st_size > 0, name)
+
+    # Warnings stand in the JSON, and on standard error in a line each.
+    check(result["warnings"] == [], result["warnings"])
+    done = subprocess.run([pressed_block, "--radius", "0.05", "--lost-after", "0.02", "--json", "-", "--quiet"], capture_output=True, text=True)
+    told = json.loads(done.stdout)["warnings"]
+    check(len(told) == 1 and told[0]["name"] == "tool_smaller_than_mesh" and told[0]["step"] == 0 and told[0]["count"] == 1, told)
+    check(all(word in told[0]["text"] for word in ('contact "top"', "0.05", "0.166667")), told)
+    said = [line for line in done.stderr.splitlines() if "warning" in line]
+    check(said == ["pressed_block: warning: " + told[0]["text"]], done.stderr)
 
     # Output that cannot be written is named with the reason, before anything is computed.
     (folder / "file").write_text("")

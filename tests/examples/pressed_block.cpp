@@ -27,10 +27,12 @@ int main(int argc, char** argv) {
       .solvers = {"eigen-ldlt"},
       .mu = 0.2,
       .parameters = {
-          {.name = "lost-after", .about = "the time from which on the tool is nowhere", .value = 1, .high = 1}}};
+          {.name = "lost-after", .about = "the time from which on the tool is nowhere", .value = 1, .high = 1},
+          {.name = "radius", .about = "of the tool", .value = 3, .low = 0.01, .high = 10}}};
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;
+    const double radius = options->parameters.at("radius");
     const auto motion = [last = options->parameters.at("lost-after")](Real t) {
       if (t > last) return Vec<Real, 2>(0, std::numeric_limits<Real>::quiet_NaN());
       return Vec<Real, 2>(std::max(0.0, t - 0.3), -0.3 * std::min(t, 0.3));
@@ -41,7 +43,7 @@ int main(int argc, char** argv) {
          .material = {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 50}},
          .inertia = {.density = 0.1},
          .contacts = {{.side = "top",
-                       .tool = rigid::disc({2, 4.02}, 3),
+                       .tool = rigid::disc({2, 1.02 + radius}, radius),
                        .motion = motion,
                        .friction = {.mu = options->mu},
                        .enforcement = {.normal = 20, .tangential = 2, .per = PenaltyPer::stiffness}}}}};

@@ -97,6 +97,23 @@ TEST_CASE("a rejected step leaves no trace") {
   CHECK(q->max_plastic_strain() == p->max_plastic_strain());
 }
 
+TEST_CASE("equal steps that had to be cut to a millionth of a step come back to their grid within some steps") {
+  // What happens at 0.5501 only steps below 1e-7 get over.
+  const Problem<M>* scene = nullptr;
+  auto p = block([&](Real t) { return scene && scene->time() < 0.5501 && t >= 0.5501 && t - scene->time() > 1e-7; });
+  scene = p.get();
+  auto march = p->march({.end = 1, .steps = 10, .tolerance = 1e-10});
+  std::vector<Real> times;
+  for (const auto& step : march) times.push_back(step.time);
+  CHECK(bool(march.outcome()));
+  CHECK(march.report().steps < 100);
+  MESSAGE(march.report().steps << " steps, " << march.report().rejected_steps << " cut");
+  for (int k = 1; k <= 10; ++k) CHECK(std::find(times.begin(), times.end(), k / 10.0) != times.end());
+  auto q = block([](Real) { return false; });
+  CHECK(bool(q->march({.end = 1, .steps = 10, .tolerance = 1e-10}).finish()));
+  CHECK((p->displacement() - q->displacement()).norm() < 0.02 * q->displacement().norm());  // less lags in short steps
+}
+
 TEST_CASE("a drive that turns elements inside out") {
   using Body = Lone<EigenLdlt>;
   Problem<Body> p({.body = mesh::rectangle({.cells = {3, 3}}), .material = material<Hencky>()});
@@ -130,6 +147,270 @@ TEST_CASE("a drive and a load that are no numbers name their node") {
       run([](auto& p) { p.hold("bottom", 0).hold("bottom", 1).load("top", 1, [](Real) { return nan; }); });
   CHECK(loaded.cause == Cause::not_finite);
   CHECK(loaded.place.kind == Place::Kind::node);
+}
+
+// A block of 4 x 2 between a held bottom and a driven top.
+using Plain = Lone<EigenLdlt>;
+std::unique_ptr<Problem<Plain>> column(Mesh<2, 4> body = mesh::rectangle({.size = {4, 2}, .cells = {6, 3}})) {
+  auto p = std::make_unique<Problem<Plain>>(
+      Problem<Plain>::Parameters{.body = std::move(body), .material = material<Hencky>()});
+  p->hold("bottom", 0).hold("bottom", 1).drive("top", 1, [](Real t) { return -0.2 * t; });
+  return p;
+}
+
+TEST_CASE("what a contact did is told of the converged state, not of an attempt that failed") {
+  bool broken = true;
+  // The tool is moved by a length at which elements turn inside out, when all nodes have been looked at.
+  auto p = std::make_unique<Problem<M>>(
+      Problem<M>::Parameters{.body = mesh::rectangle({.size = {4, 2}, .cells = {6, 3}}),
+                             .material = material<FiniteJ2<PowerHardening>>(),
+                             .contacts = {{.side = "top",
+                                           .tool = rigid::disc({2, 7}, 5),
+                                           .motion = [&](Real t) { return V(0, broken && t > 0.5 ? -3 : -0.2 * t); },
+                                           .friction = {.mu = 0.2},
+                                           .enforcement = {.normal = 1e5, .tangential = 1e4},
+                                           .name = "punch"}}});
+  p->hold("bottom", 0).hold("bottom", 1);
+  auto march = p->march({.end = 1, .steps = 10, .smallest = 0.01});
+  ContactSummary last, reported;
+  for (const auto& step : march) {
+    last = p->contact("punch").summary();
+    reported = step.contact;
+  }
+  CHECK_FALSE(bool(march.outcome()));
+  CHECK(last.touching > 0);
+  const ContactSummary& now = p->contact("punch").summary();
+  CHECK(now.touching == last.touching);
+  CHECK(now.sliding == last.sliding);
+  CHECK(now.max_penetration == last.max_penetration);
+  CHECK(now.bound == last.bound);
+  CHECK(now.stored == last.stored);
+  CHECK(reported.max_penetration == last.max_penetration);
+  Index touching = 0;
+  Real deepest = 0;
+  for (const auto& node : p->contact("punch").states()) {
+    touching += node.touching ? 1 : 0;
+    if (node.touching) deepest = std::max(deepest, -node.gap);
+  }
+  CHECK(now.touching == touching);
+  CHECK(now.max_penetration == deepest);
+}
+
+TEST_CASE("supports and loads given between the steps of a march count from the next one on") {
+  const auto pull = [](Real t) { return 500 * t; };
+  const auto change = [&](Problem<Plain>& p) { p.hold("left", 0).hold("top", 0).load("right", 1, pull); };
+  auto between = column();
+  CHECK(bool(between->march({.end = 0.5, .steps = 5, .tolerance = 1e-10}).finish()));
+  change(*between);
+  CHECK(bool(between->march({.end = 1, .steps = 5, .tolerance = 1e-10}).finish()));
+
+  auto within = column();
+  auto march = within->march({.end = 1, .steps = 10, .tolerance = 1e-10});
+  const Index unknowns = within->unknowns();
+  for (const auto& step : march)
+    if (step.number == 5) {
+      const Real reaction = within->reaction("bottom", 1);
+      CHECK(reaction > 0);
+      change(*within);
+      CHECK(within->reaction("bottom", 1) == reaction);  // of the converged state, still
+    }
+  CHECK(bool(march.outcome()));
+  CHECK(march.report().steps == 10);
+  CHECK(within->unknowns() == unknowns - 9);  // of the top's seven nodes, and of the left side's other two
+  CHECK((within->displacement() - between->displacement()).norm() < 1e-12 * between->displacement().norm());
+  CHECK(within->reaction("left", 0) == doctest::Approx(between->reaction("left", 0)).epsilon(1e-10));
+  CHECK(march.report().timings.assembly > 0);
+
+  // Before the first step it is as before the march.
+  auto early = column(), before = column();
+  auto begun = early->march({.end = 1, .steps = 2, .tolerance = 1e-10});
+  early->load("top", 0, pull);
+  before->load("top", 0, pull);
+  CHECK(bool(begun.finish()));
+  CHECK(bool(before->march({.end = 1, .steps = 2, .tolerance = 1e-10}).finish()));
+  CHECK(early->displacement() == before->displacement());
+}
+
+TEST_CASE("a support that is released within a march holds no longer") {
+  const auto pull = [](Real t) { return 500 * t; };
+  auto p = column();
+  p->load("right", 0, pull);
+  auto march = p->march({.end = 1, .steps = 4, .tolerance = 1e-10});
+  for (const auto& step : march)
+    if (step.number == 2) p->release("top", 1);
+  CHECK(bool(march.outcome()));
+  // Elastic: nothing of what it did is left.
+  Problem<Plain> never({.body = p->body().mesh(), .material = material<Hencky>()});
+  never.hold("bottom", 0).hold("bottom", 1).load("right", 0, pull);
+  CHECK(bool(never.march({.end = 1, .steps = 4, .tolerance = 1e-10}).finish()));
+  CHECK((p->displacement() - never.displacement()).norm() < 1e-8 * never.displacement().norm());
+  CHECK(std::abs(p->reaction("bottom", 1)) < 1e-5);
+  CHECK_THROWS_WITH_AS(p->release("top", 1), "release of side \"top\": it has no support in component 1",
+                       std::invalid_argument);
+  // And the last one leaves a body that nothing holds.
+  auto rest = p->march({.end = 2, .steps = 4});
+  for (const auto& step : rest)
+    if (step.number == 2) p->release("bottom", 1);
+  CHECK(rest.outcome().trouble.cause == Cause::unsupported);
+  CHECK(rest.report().steps == 2);
+}
+
+TEST_CASE("a march that is no longer the scene's own says so") {
+  const auto throws = [](auto&& advance) {
+    CHECK_THROWS_WITH_AS(advance(), doctest::Contains("another march has moved it"), std::invalid_argument);
+  };
+  auto p = column();
+  // Advanced in turns.
+  auto one = p->march({.end = 1, .steps = 4}), other = p->march({.end = 1, .steps = 4});
+  auto it = one.begin();
+  throws([&] { (void)other.begin(); });
+  CHECK(p->time() == 0.25);
+  ++it;
+  CHECK(p->time() == 0.5);
+  throws([&] { (void)other.finish(); });
+  CHECK(bool(one.finish()));
+  CHECK(p->time() == 1);
+  CHECK(bool(one.finish()));  // it has ended, and that is no step
+  // Begun before another one has moved the time.
+  auto stale = p->march({.end = 2, .steps = 4});
+  CHECK(bool(p->march({.end = 3, .steps = 4}).finish()));
+  throws([&] { (void)stale.finish(); });
+  CHECK(p->time() == 3);
+  static_assert(!std::is_move_constructible_v<March<Plain>>);  // a march that was moved from would be one
+}
+
+TEST_CASE("supports that contradict each other") {
+  const auto complains = [](auto&& f, std::initializer_list<const char*> parts) {
+    std::string text;
+    try {
+      f();
+    } catch (const std::invalid_argument& error) {
+      text = error.what();
+    }
+    for (const char* part : parts) CHECK_MESSAGE(text.find(part) != std::string::npos, text);
+  };
+  const auto after = [](Real rate) { return [rate](Real t) { return rate * t; }; };
+  auto p = column();
+  const auto& left = p->body().mesh().side("left").nodes;  // from the top
+  const std::string upper = "node " + std::to_string(left.front()), corner = "node " + std::to_string(left.back());
+  // Now: at once.
+  complains([&] { p->drive("left", 1, [](Real) { return 0.1; }); },
+            {"contradict", upper.c_str(), "component 1", "side \"top\" is at 0 ", "side \"left\" at 0.1"});
+  // Later, as far as can be seen when the march begins: hold and drive of one component, and of a corner.
+  p->drive("bottom", 0, after(0.1));
+  complains([&] { (void)p->march({.end = 1}); }, {"component 0", "side \"bottom\" is at 0 and", "release"});
+  p->release("bottom", 0).drive("bottom", 0, after(0.1)).drive("left", 0, after(0.2));
+  complains([&] { (void)p->march({.end = 1}); }, {corner.c_str(), "side \"bottom\"", "side \"left\"", "component 0"});
+  CHECK(p->time() == 0);
+  // Equal values are none, round-off or not.
+  p->release("left", 0).drive("left", 0, [](Real t) { return t / 10; });
+  CHECK(bool(p->march({.end = 1, .steps = 2}).finish()));
+  // What begins only within a step, and between the times looked at, ends the run by name.
+  auto q = column();
+  q->drive("left", 0, [](Real t) { return t > 0.501 && t < 0.502 ? 0.01 : 0; });
+  auto march = q->march({.end = 1, .initial = 0.5005, .stops = {0.5005, 0.5015}});
+  CHECK_FALSE(bool(march.finish()));
+  CHECK(march.outcome().trouble.cause == Cause::contradicting_supports);
+  CHECK(march.outcome().trouble.place.kind == Place::Kind::node);
+  for (const char* part : {"contradict", "component 0", "side \"bottom\"", "side \"left\" at 0.01"})
+    CHECK_MESSAGE(march.outcome().message().find(part) != std::string::npos, march.outcome().message());
+  CHECK(q->time() < 0.502);
+}
+
+// Two blocks side by side in one mesh, not joined; the second one's sides are called as the first one's and "2".
+Mesh<2, 4> two_blocks(bool named) {
+  auto both = mesh::rectangle({.size = {1, 1}, .cells = {2, 2}});
+  const auto second = mesh::rectangle({.origin = {3, 0}, .size = {1, 1}, .cells = {2, 2}});
+  const Index first = both.node_count();
+  both.nodes.insert(both.nodes.end(), second.nodes.begin(), second.nodes.end());
+  for (auto cell : second.cells) {
+    for (Index& n : cell) n += first;
+    both.cells.push_back(cell);
+  }
+  for (auto [name, side] : second.sides) {
+    for (Index& n : side.nodes) n += first;
+    for (auto& facet : side.facets)
+      for (Index& n : facet) n += first;
+    if (named) both.sides[name + "2"] = side;
+    // Sides over both parts do not tell them apart.
+    Side<2>& joined = both.sides[name + " of both"];
+    joined = both.sides[name];
+    joined.nodes.insert(joined.nodes.end(), side.nodes.begin(), side.nodes.end());
+    joined.facets.insert(joined.facets.end(), side.facets.begin(), side.facets.end());
+  }
+  return both;
+}
+
+TEST_CASE("a second part of the body that nothing holds is named, before a step is taken") {
+  const auto refused = [](Problem<Plain>& p, const char* part) {
+    auto march = p.march({.end = 1, .steps = 40});
+    CHECK_FALSE(bool(march.finish()));
+    CHECK(march.outcome().trouble.cause == Cause::unsupported);
+    CHECK_MESSAGE(march.outcome().message().find(part) != std::string::npos, march.outcome().message());
+    CHECK(march.report().steps == 0);
+    CHECK(p.displacement().isZero(0));
+    CHECK(march.outcome().message().find("tried") == std::string::npos);  // it was not
+  };
+  const auto force = [](Real t) { return 10 * t; };
+  const auto back = [](Real t) { return -10 * t; };
+  const auto named = "the part of the mesh with side \"bottom2\"";
+  refused(*column(two_blocks(true)), named);
+  refused(*column(two_blocks(false)), "the part of the mesh with node 9");
+  auto pushed = column(two_blocks(true)), balanced = column(two_blocks(true)), half = column(two_blocks(true));
+  pushed->load("right2", 0, force);
+  refused(*pushed, named);
+  balanced->load("right2", 0, force).load("left2", 0, back);
+  refused(*balanced, named);
+  half->hold("bottom2", 1).load("right2", 0, force).load("left2", 0, back);
+  refused(*half, named);
+}
+
+TEST_CASE("a second part that may only turn is named after its first step; one that is held is none") {
+  auto mesh = two_blocks(true);
+  mesh.sides["pin"].nodes = {mesh.side("left2").nodes[1]};
+  const auto force = [](Real t) { return 10 * t; };
+  auto turning = column(mesh);
+  turning->hold("pin", 0).hold("pin", 1).load("top2", 1, force);
+  auto march = turning->march({.end = 1, .steps = 4});
+  CHECK_FALSE(bool(march.finish()));
+  CHECK(march.outcome().trouble.cause == Cause::unsupported);
+  CHECK(march.outcome().message().find("\"bottom2\"") != std::string::npos);
+  CHECK(march.report().steps == 0);
+
+  auto held = column(mesh);
+  held->hold("bottom2", 0).hold("bottom2", 1).load("top2", 1, force);
+  CHECK(bool(held->march({.end = 1, .steps = 4, .tolerance = 1e-9}).finish()));
+  CHECK(held->reaction("bottom2", 1) == doctest::Approx(-10).epsilon(1e-6));
+}
+
+TEST_CASE("a part that a tool holds is held, until the tool leaves it") {
+  // The second block lies on a floor between two walls' worth of friction-free tool: a groove that holds it both ways.
+  using Touching = Model<EigenLdlt, Frictionless>;
+  auto body = two_blocks(true);
+  mesh::join(body, "below", {"left2", "bottom2", "right2"});
+  const auto scene = [&](std::function<Real(Real)> drop) {
+    auto p = std::make_unique<Problem<Touching>>(Problem<Touching>::Parameters{
+        .body = body,
+        .material = material<Hencky>(),
+        .contacts = {
+            {.side = "below",
+             .tool = rigid::path({3, 2}, {0, -1}).straight(2).corner(pi / 2).straight(1).corner(pi / 2).straight(2),
+             .motion = [drop](Real t) { return V(0, drop(t)); },
+             .enforcement = {.normal = 1e5},
+             .name = "groove"}}});
+    p->hold("bottom", 0).hold("bottom", 1).drive("top", 1, [](Real t) { return -0.2 * t; });
+    return p;
+  };
+  auto held = scene([](Real t) { return 1e-3 * t; });
+  held->hold("top2", 1).hold("top2", 0);
+  CHECK(bool(held->march({.end = 1, .steps = 4}).finish()));
+  auto loose = scene([](Real t) { return -0.2 * t; });
+  loose->load("top2", 1, [](Real t) { return 10 * t; });  // lifts it off
+  auto march = loose->march({.end = 1, .steps = 4, .smallest = 1e-3});
+  CHECK_FALSE(bool(march.finish()));
+  CHECK(march.outcome().trouble.cause == Cause::unsupported);
+  CHECK(march.outcome().message().find("with side \"below\"") != std::string::npos);
+  CHECK(loose->displacement().norm() < 10);
 }
 
 }  // namespace failure

@@ -231,6 +231,22 @@ TEST_CASE("an imposed velocity with a consistent start sends no shock") {
   REQUIRE(march.outcome());
 }
 
+TEST_CASE("a start velocity counts where it comes before the first step, and is refused after it") {
+  const auto bar = [] {
+    return Problem<Flying>{
+        {.body = mesh::rectangle({.size = {1, 5}, .cells = {1, 10}}), .material = rubber, .inertia = {.density = 1}}};
+  };
+  auto before = bar(), begun = bar();
+  before.start_velocity({0, -2});
+  CHECK(bool(before.march({.end = 1, .steps = 5}).finish()));
+  auto march = begun.march({.end = 1, .steps = 5});
+  begun.start_velocity({0, -2});
+  CHECK(bool(march.finish()));
+  CHECK(begun.displacement() == before.displacement());
+  CHECK_THROWS_WITH_AS(begun.start_velocity({0, 0}), "start velocity: the run has begun, it is at time 1 already",
+                       std::invalid_argument);
+}
+
 TEST_CASE("an inertia without density is refused by name") {
   CHECK_THROWS_WITH_AS((Problem<Flying>{{.body = mesh::rectangle({}), .material = rubber}}),
                        "inertia: the density must be positive", std::invalid_argument);

@@ -134,6 +134,42 @@ TEST_CASE("a pass that cannot settle fails its step and says so") {
   CHECK(problem.time() == 0);
 }
 
+TEST_CASE("a step that is refused after its passes leaves neither multipliers nor stiffnesses behind") {
+  using M = With<EigenLdlt, LagIteratedCoulomb, AugmentedLagrangian>;
+  const auto scene = [] {
+    auto p = std::make_unique<Problem<M>>(
+        Problem<M>::Parameters{.body = mesh::rectangle({.size = {10, 5}, .cells = {8, 4}}),
+                               .material = material<Hencky>(),
+                               .contacts = {{.side = "bottom",
+                                             .tool = rigid::line({0, 0}, {1, 0}),
+                                             .friction = {.mu = 0},
+                                             .enforcement = {.normal = 1e-2, .tangential = 1},
+                                             .name = "floor"}}});
+    p->drive("top", 1, [](Real t) { return -0.1 * t; });
+    p->load("left", 0, [](Real t) { return 1000 * t; }).load("right", 0, [](Real t) { return -1000 * t; });
+    return p;
+  };
+  auto refused = scene(), fresh = scene();
+  for (auto* p : {&refused, &fresh}) {
+    (*p)->hold("top", 0);
+    CHECK(bool((*p)->march({.end = 0.5, .steps = 1}).finish()));
+  }
+  const Index touching = refused->contact("floor").summary().touching;
+  refused->release("top", 0);
+  auto march = refused->march({.end = 1, .steps = 1, .smallest = 0.1});
+  CHECK_FALSE(bool(march.finish()));
+  REQUIRE(march.outcome().trouble.cause == Cause::unsupported);  // the loads balance, but nothing holds it along x
+  CHECK(march.outcome().attempts == 1);
+  CHECK(march.report().passes > 1);
+  CHECK(refused->contact("floor").summary().touching == touching);
+  refused->hold("top", 0);
+  auto again = refused->march({.end = 1, .steps = 1}), direct = fresh->march({.end = 1, .steps = 1});
+  CHECK(bool(again.finish()));
+  CHECK(bool(direct.finish()));
+  CHECK(again.report().passes == direct.report().passes);
+  CHECK(refused->displacement() == fresh->displacement());
+}
+
 struct Mixed : With<EigenLu, PerContact<Coulomb, Frictionless>, Penalty> {};
 
 TEST_CASE("a law for each kind of contact: the same answers as alone, and no memory where there is none") {

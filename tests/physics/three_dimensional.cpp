@@ -152,6 +152,53 @@ TEST_CASE("the mean dilatation in space does not lock where the plain element do
 struct Moving : Brick<Hencky> {
   using Inertia = GeneralizedAlpha;
 };
+TEST_CASE("of two bodies in space the one that may turn about a line, or shift, is named") {
+  auto mesh = mesh::box({.cells = {2, 2, 2}});
+  const auto other = mesh::box({.origin = {5, 1, 0}, .cells = {2, 2, 2}});
+  const Index first = mesh.node_count();
+  mesh.nodes.insert(mesh.nodes.end(), other.nodes.begin(), other.nodes.end());
+  for (auto cell : other.cells) {
+    for (Index& n : cell) n += first;
+    mesh.cells.push_back(cell);
+  }
+  for (const auto& [name, side] : other.sides) {
+    auto& there = mesh.sides["other " + name] = side;
+    for (Index& n : there.nodes) n += first;
+    for (auto& facet : there.facets)
+      for (Index& n : facet) n += first;
+  }
+  // Pins at two ends of an edge along x; a third one beside it.
+  for (Index n = first; n < mesh.node_count(); ++n) {
+    const V3& X = mesh.nodes[std::size_t(n)];
+    if (X[1] == 1 && X[2] == 0 && X[0] != 5.5) mesh.sides["edge"].nodes.push_back(n);
+    if (X == V3(5, 2, 0)) mesh.sides["beside"].nodes = {n};
+  }
+  REQUIRE(mesh.side("edge").nodes.size() == 2);
+  const auto outcome = [&](auto prepare) {
+    Problem<Brick<Hencky>> p({.body = mesh, .material = material<Hencky>()});
+    for (const Index i : {0, 1, 2}) p.hold("bottom", i);
+    p.load("other left", 2, [](Real t) { return 10 * t; }).load("other right", 2, [](Real t) { return -10 * t; });
+    prepare(p);
+    auto march = p.march({.end = 1, .steps = 2});
+    (void)march.finish();
+    if (!march.outcome()) CHECK(p.displacement().isZero(0));
+    return march.outcome();
+  };
+  // It is called by the first of its sides.
+  const auto names = [](const Outcome& o) {
+    return o.trouble.cause == Cause::unsupported &&
+           o.message().find("the part of the mesh with side \"beside\"") != std::string::npos;
+  };
+  const auto pin = [](auto& p) { p.hold("edge", 0).hold("edge", 1).hold("edge", 2); };
+  CHECK(names(outcome([](auto&) {})));
+  CHECK(names(outcome([](auto& p) { p.hold("other top", 0).hold("other top", 1); })));
+  CHECK(names(outcome(pin)));  // it may turn about the edge
+  CHECK(bool(outcome([&](auto& p) {
+    pin(p);
+    p.hold("beside", 2);
+  })));
+}
+
 TEST_CASE("a free body in space keeps its momentum") {
   Problem<Moving> p({.body = distorted_cube({2, 2, 2}), .material = material<Hencky>(), .inertia = {.density = 3}});
   p.start_velocity(V3(1, -2, 0.5));

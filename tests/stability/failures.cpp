@@ -186,8 +186,8 @@ const Hard input(
         p.hold("held", 0);
       };
       c.complains([&] { with([](auto& p) { p.body.sides["spot"] = {}; }); }, "contact \"spot\": the side has no nodes");
-      c.complains([&] { with([](auto& p) { p.body.sides["spot"].nodes = {99}; }); }, "contact \"spot\"");
-      c.complains([&] { with([](auto& p) { p.body.sides["spot"].nodes = {-1}; }); }, "contact \"spot\"");
+      c.complains([&] { with([](auto& p) { p.body.sides["spot"].nodes = {99}; }); }, "side \"spot\" names a node");
+      c.complains([&] { with([](auto& p) { p.body.sides["spot"].nodes = {-1}; }); }, "side \"spot\" names a node");
       c.complains([&] { with([](auto& p) { p.body.sides["spot"].nodes = {0}, p.body.sides["held"] = {}; }); },
                   "\"held\" has no nodes");
       c.complains([&] { with([](auto& p) { p.body.sides["spot"].nodes = {0}, p.body.sides["held"].nodes = {12}; }); },

@@ -114,6 +114,66 @@ TEST_CASE("a step that never converges is given up below the smallest size") {
   CHECK(smallest >= 1e-4);
   CHECK(smallest < 1e-3);
 }
+TEST_CASE("equal steps come back from any cut, in steps that go with its logarithm") {
+  // A first contact at 0.3001, which only steps below `depth` get over; in 4 equal steps.
+  for (const Real depth : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    const Real event = 0.3001;
+    const auto times = run({.end = 1, .steps = 4}, 0, [&](Real from, Real to) {
+      return from < event && to >= event && to - from > depth ? 0 : 5;
+    });
+    for (const Real t : {0.25, 0.5, 0.75, 1.0}) CHECK(holds(times, t));
+    CHECK(double(times.size()) < 20 + 10 * std::log(0.25 / depth));
+    std::size_t at = 0;
+    while (times[at] < event) ++at;
+    // Behind it the size grows at every step but the first, by half.
+    for (std::size_t k = at + 1; times[k + 1] < 0.45; ++k)
+      CHECK(times[k + 1] - times[k] == doctest::Approx(1.5 * (times[k] - times[k - 1])).epsilon(1e-6));
+    CHECK(times[times.size() - 2] == 0.75);
+  }
+}
+TEST_CASE("where equal steps stay too long, few of the shorter ones are tried in vain") {
+  int vain = 0;
+  const auto times = run({.end = 1, .steps = 2}, 0, [&](Real from, Real to) {
+    if (to - from < 5e-3) return 5;
+    ++vain;
+    return 0;
+  });
+  CHECK(times.back() == 1);
+  CHECK(times.size() < 450);
+  CHECK(vain < 150);
+}
+TEST_CASE("steps that time does not resolve are refused, or given up") {
+  const auto refused = [](const MarchOptions& options, Real now, const char* part) {
+    CHECK_THROWS_WITH_AS(options.validate(now), doctest::Contains(part), std::invalid_argument);
+  };
+  const Real late = 1e6;
+  refused({.end = late + 1, .initial = 1e-12}, late, "a first step of 1e-12 is below what a time of 1e+06 resolves");
+  refused({.end = late + 1, .largest = 1e-12}, late, "a largest step of 1e-12");
+  refused({.end = 1, .initial = 1e-30}, 0, "a first step of 1e-30");
+  refused({.end = std::nextafter(late, 2 * late)}, late, "a first step");
+  refused({.end = late + 1e-9, .steps = 100}, late, "equal steps of ");
+  MarchOptions{.end = late + 1, .initial = 1e-6}.validate(late);
+  MarchOptions{.end = 1e-20, .steps = 10}.validate(0);  // it is a matter of digits, not of size
+  // Cut without end, a step is given up before it ends where it began, whatever `smallest` asks for.
+  for (const Index steps : {0, 5}) {
+    StepControl control({.end = late + 1, .steps = steps, .smallest = 1e-30}, late);
+    while (!control.too_small()) {
+      CHECK(control.next() > late);
+      control.reject(control.next());
+    }
+  }
+  // Nor do steps that converge shrink to it.
+  StepControl shrinking({.end = late + 1, .initial = 0.1, .smallest = 1e-4}, late);
+  for (int k = 0; k < 200; ++k) {
+    const Real from = shrinking.time(), to = shrinking.next();
+    CHECK(to > from);
+    shrinking.accept(to, 4, 0, 100);
+    CHECK_FALSE(shrinking.too_small());
+  }
+  // A run that ends at time zero, and one that begins below it.
+  const auto before = run({.end = 0, .steps = 4, .stops = {-0.3}}, -1, [](Real, Real) { return 4; });
+  CHECK(before == std::vector<Real>{-1, -0.75, -0.5, -0.3, -0.25, 0});
+}
 TEST_CASE("a step shortened by a stop does not shrink the steps after it") {
   const auto times = run({.end = 10, .initial = 1, .stops = {2.6}}, 0, [](Real, Real) { return 4; });
   CHECK(holds(times, 2.6));
@@ -135,6 +195,9 @@ TEST_CASE("an outcome says what, where, when and how often") {
   const std::string text = bad.message();
   for (const char* part : {"step 4", "0.25", "inside out", "element 17", "6 times", "0.001"})
     CHECK(text.find(part) != std::string::npos);
+  const Outcome small{.trouble = {Cause::stalled, {}}, .step = 1, .time = 1.25e-7, .tried_step = 3e-15, .attempts = 2};
+  for (const char* part : {"after time 1.25e-07 ", "increment of 3e-15"})
+    CHECK(small.message().find(part) != std::string::npos);
   const auto placed = [](Place::Kind kind) { return Outcome{.trouble = {Cause::not_finite, {kind, 5}}}.message(); };
   CHECK(placed(Place::Kind::node).find("(node 5)") != std::string::npos);
   CHECK(placed(Place::Kind::contact_node).find("(contact node 5)") != std::string::npos);

@@ -268,6 +268,15 @@ TEST_CASE("far away, in the middle and at points that are no numbers") {
   CHECK(any.distance(V3(2, 1, 1)).gap == ball.distance(V3(2, 1, 1)).gap);
 }
 
+TEST_CASE("the smallest size of a closed surface is the least edge of its box, of an open one the largest") {
+  CHECK(Triangulated(cube(0.25)).smallest_size() == doctest::Approx(0.5));
+  Triangles flat = cube(1);
+  for (V3& x : flat.vertices) x[2] *= 0.1;
+  CHECK(Triangulated(flat).smallest_size() == doctest::Approx(0.2));
+  flat.corners.pop_back();
+  CHECK(Triangulated(flat).smallest_size() == doctest::Approx(2));
+}
+
 TEST_CASE("triangles that are wrong are named") {
   const auto complaint = [](auto&& change, Real crease = 1) -> std::string {
     Triangles s = cube(1);

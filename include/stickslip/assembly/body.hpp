@@ -3,6 +3,7 @@
 
 #include <stickslip/assembly/sparse_matrix.hpp>
 #include <stickslip/mesh/mesh.hpp>
+#include <stickslip/mesh/sound.hpp>
 #include <stickslip/policy/model.hpp>
 #include <stickslip/tensor/products.hpp>
 
@@ -59,6 +60,7 @@ class BodyOf {
   BodyOf(MeshType mesh, const Kinematics& kinematics, const Material& material)
       : mesh_(std::move(mesh)), kinematics_(kinematics), material_(material) {
     if (mesh_.cells.empty()) throw std::invalid_argument("body: the mesh has no cells");
+    require_sound(mesh_);
     geometry_.reserve(mesh_.cells.size());
     for (Index e = 0; e < mesh_.cell_count(); ++e) geometry_.push_back(cell_geometry(e));
     committed_.resize(mesh_.cells.size());
@@ -181,8 +183,6 @@ class BodyOf {
     Mat<Real, Element::nodes, dim> X;
     for (int a = 0; a < Element::nodes; ++a) {
       const Index n = cell[static_cast<std::size_t>(a)];
-      if (n < 0 || n >= mesh_.node_count())
-        throw std::invalid_argument("body: cell " + std::to_string(e) + " names a node that does not exist");
       for (int i = 0; i < dim; ++i) X(a, i) = mesh_.nodes[static_cast<std::size_t>(n)][i];
     }
     Geometry geometry;

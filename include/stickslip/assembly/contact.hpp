@@ -36,6 +36,7 @@ struct ContactOf {
   [[no_unique_address]] Only<Model::Enforcement::active && Friction::active, typename Friction::Law, ContactOf>
       friction{};                             ///< parameters of the law
   typename Model::Enforcement enforcement{};  ///< parameters of the enforcement
+  Real start_depth = 0;  ///< that a node may lie inside the tool at the start [length]; at least its spacing is allowed
   std::string name = "";  ///< for results; the side's name if empty. Not {}: GCC 12 breaks down where it is left out
 };
 

@@ -7,6 +7,7 @@
 #include <stickslip/assembly/facet.hpp>
 #include <stickslip/assembly/node_couplings.hpp>
 #include <stickslip/assembly/sparse_matrix.hpp>
+#include <stickslip/base/brief.hpp>
 #include <stickslip/base/nodal.hpp>
 #include <stickslip/base/relaxation.hpp>
 #include <stickslip/geometry/passage.hpp>
@@ -61,14 +62,15 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   template <class MeshType>
   ContactPair(const Contact<Model, Friction>& contact, const MeshType& mesh,
               const typename Model::Kinematics& kinematics)
-      : ContactRecord<dim>(contact.name, contact.side, contact.motion, mesh.side(contact.side).nodes,
-                           mesh.node_count()),
+      : ContactRecord<dim>(contact.name, contact.side, contact.motion, mesh.side(contact.side).nodes),
         tool_(contact.tool),
         friction_(contact.friction),
         enforcement_(contact.enforcement),
+        start_depth_(contact.start_depth),
         weight_(nodes_.size(), 0.0),
         pressures_(nodes_.size()) {
     if (tool_.empty()) this->refuse("the tool has no surface");
+    if (!(start_depth_ >= 0)) this->refuse("start_depth must not be negative");
     if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
     if constexpr (with_friction)
       if constexpr (requires { friction_.validate(); }) friction_.validate();
@@ -137,17 +139,40 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     return c;
   }
 
-  /// Takes the positions at `time` for the start of sliding. Throws std::invalid_argument where the tool is nowhere.
+  /// The warning that nodes are too far apart for the tool, three times its smallest size: they may step over it. Empty
+  /// where they are not, or the tool does not tell its size.
+  std::string warning_of_size() const {
+    if constexpr (requires { tool_.smallest_size(); }) {
+      const Real size = tool_.smallest_size(), spacing = *std::min_element(spacing_.begin(), spacing_.end());
+      if (size < spacing / 3)
+        return "contact \"" + name_ + "\": the tool's smallest size, " + brief(size) +
+               ", is less than a third of the distance of the nodes of side \"" + this->side_ + "\", " +
+               brief(spacing) + ": they may step over it or snap around it";
+    }
+    return "";
+  }
+
+  /// Takes the positions at `time` for the start of sliding. Throws std::invalid_argument where the tool is nowhere, or
+  /// nodes lie deeper inside it than their neighbours are away: a tool the wrong way round, or one that ends too early,
+  /// so that nodes past its end lie behind it.
   template <class MeshType>
   void start(const MeshType& mesh, const Field& u, Real time) {
     const rigid::Pose<dim> pose = motion_.at(time);
     if (const Trouble t = stretched(pose)) this->refuse(describe(t.cause));
+    std::size_t worst = 0;
+    Real excess = 0;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const SurfacePoint<Real, dim> at = seen_from_tool(mesh, u, pose, nodes_[k]);
       if (!std::isfinite(at.gap)) this->refuse("the tool's position or the distance to it is not finite at the start");
       states_[k].gap = at.gap;
       if constexpr (with_friction) committed_[k].friction.place = at.place;
+      if (const Real e = -at.gap - std::max(spacing_[k], start_depth_) * (1 + 1e-9); e > excess) worst = k, excess = e;
     }
+    if (excess > 0)
+      this->refuse("node " + std::to_string(nodes_[worst]) + " starts " + brief(-states_[worst].gap) +
+                   " deep inside the tool, and its next neighbour is " + brief(spacing_[worst]) +
+                   " away: the tool is the wrong way round (the body must be on the left of a chain, or where normals "
+                   "point), or ends too early; for so deep a fit set start_depth");
     if constexpr (passes || lags) begin_passes();
   }
 
@@ -180,7 +205,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
                    Field* excess, Matrix& matrix, [[maybe_unused]] Couplings& couplings, bool smooth = false) {
     const rigid::Pose<dim> pose = motion_.at(time);
     if (const Trouble t = stretched(pose)) return t;
-    summary_ = {};
+    trial_summary_ = {};
     if constexpr (lags) dt_ = dt;
     trial_force_.setZero();
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
@@ -210,7 +235,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       state.sliding = node.sliding;
       state.force.setZero();
       state.pressure = node.touching ? node.pressure.value : 0;
-      summary_.stored += 0.5 * std::abs(state.pressure * state.gap - states_[k].pressure * states_[k].gap);
+      trial_summary_.stored += 0.5 * std::abs(state.pressure * state.gap - states_[k].pressure * states_[k].gap);
       pressures_[k] = node.pressure;
       if constexpr (with_friction) {
         if (excess && !probing()) {
@@ -221,7 +246,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
           t.pressed = t.pressed || settled > 0;
         }
         state.slip = node.memory.friction.slip;
-        summary_.max_slip = std::max(summary_.max_slip, state.slip);
+        trial_summary_.max_slip = std::max(trial_summary_.max_slip, state.slip);
       }
       if (!node.touching) continue;
       state.force = product(pose.rotation, node.force);
@@ -247,14 +272,14 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       }
 
       add(trial_force_, state.force);
-      ++summary_.touching;
-      summary_.sliding += node.sliding ? 1 : 0;
-      summary_.max_penetration = std::max(summary_.max_penetration, -at.gap);
-      summary_.bound += node.bound;
-      summary_.lag += std::abs(node.lag);
-      if (states_[k].touching) summary_.swing += node.lag;
-      summary_.dissipated += node.dissipated;
-      summary_.missed += node.missed;
+      ++trial_summary_.touching;
+      trial_summary_.sliding += node.sliding ? 1 : 0;
+      trial_summary_.max_penetration = std::max(trial_summary_.max_penetration, -at.gap);
+      trial_summary_.bound += node.bound;
+      trial_summary_.lag += std::abs(node.lag);
+      if (states_[k].touching) trial_summary_.swing += node.lag;
+      trial_summary_.dissipated += node.dissipated;
+      trial_summary_.missed += node.missed;
     }
     return {};
   }
@@ -357,7 +382,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
                                             (enforcement_.stick_stiffness(weight_[k]) * spacing_[k]));
       }
     if constexpr (iterates)
-      if (summary_.bound > 0) largest = std::max(largest, summary_.lag / summary_.bound);
+      if (trial_summary_.bound > 0) largest = std::max(largest, trial_summary_.lag / trial_summary_.bound);
     return largest;
   }
   /// Stiffens the enforcement, where the passes do not settle quickly enough.
@@ -384,6 +409,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     if constexpr (remembers) std::swap(committed_, trial_);
     std::swap(states_, trial_states_);
     pressures_.commit();
+    summary_ = trial_summary_;
     force_ = trial_force_;
     if constexpr (is_augmented<Enforcement>) stiffened_ = 1;  // what a converged step took stays
     if constexpr (passes || lags) begin_passes();
@@ -405,8 +431,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
 
  private:
   using ContactRecord<dim>::name_, ContactRecord<dim>::motion_, ContactRecord<dim>::nodes_, ContactRecord<dim>::states_,
-      ContactRecord<dim>::trial_states_, ContactRecord<dim>::summary_, ContactRecord<dim>::force_,
-      ContactRecord<dim>::trial_force_;
+      ContactRecord<dim>::trial_states_, ContactRecord<dim>::summary_, ContactRecord<dim>::trial_summary_,
+      ContactRecord<dim>::force_, ContactRecord<dim>::trial_force_;
 
   template <class MeshType>
   static Vec<Real, dim> on_tool(const MeshType& mesh, const Field& u, const rigid::Pose<dim>& pose, Index node) {
@@ -582,6 +608,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   Tool tool_;
   [[no_unique_address]] Only<with_friction, typename Friction::Law, Contact<Model, Friction>> friction_;
   Enforcement enforcement_;
+  Real start_depth_;  // that nodes may lie inside the tool at the start
   std::vector<Real> weight_;
   [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
   StiffRelations<dim> pressures_;

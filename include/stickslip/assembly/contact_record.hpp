@@ -59,15 +59,18 @@ class ContactRecord {
   const std::vector<Index>& nodes() const { return nodes_; }
   /// The nodes at the converged state.
   const std::vector<ContactNodeState<dim>>& states() const { return states_; }
-  /// What happened in the last assembly.
+  /// What happened in the step that led to the converged state.
   const ContactSummary& summary() const { return summary_; }
+  /// What happened in the last assembly, of a step that may be given up.
+  const ContactSummary& trial_summary() const { return trial_summary_; }
+  /// Whether a node, by its place in `nodes`, touched the tool in the last assembly.
+  bool touches(std::size_t k) const { return trial_states_[k].touching; }
   /// Total force on the tool at the converged state.
   const Vec<Real, dim>& force() const { return force_; }
 
  protected:
-  // Throws std::invalid_argument where the side has no nodes, or one that a mesh of `node_count` does not have.
-  ContactRecord(std::string name, std::string side, rigid::Motion<dim> motion, std::vector<Index> nodes,
-                Index node_count)
+  // Throws std::invalid_argument where the side has no nodes.
+  ContactRecord(std::string name, std::string side, rigid::Motion<dim> motion, std::vector<Index> nodes)
       : name_(name.empty() ? side : std::move(name)),
         side_(std::move(side)),
         motion_(std::move(motion)),
@@ -75,10 +78,8 @@ class ContactRecord {
         states_(nodes_.size()),
         trial_states_(nodes_.size()) {
     if (nodes_.empty()) refuse("the side has no nodes");
-    for (const Index n : nodes_)
-      if (n < 0 || n >= node_count) refuse("the side names a node that does not exist");
   }
-  [[noreturn]] void refuse(const char* reason) const {
+  [[noreturn]] void refuse(const std::string& reason) const {
     throw std::invalid_argument("contact \"" + name_ + "\": " + reason);
   }
 
@@ -86,7 +87,7 @@ class ContactRecord {
   rigid::Motion<dim> motion_;
   std::vector<Index> nodes_;
   std::vector<ContactNodeState<dim>> states_, trial_states_;
-  ContactSummary summary_;
+  ContactSummary summary_, trial_summary_;
   Vec<Real, dim> force_ = Vec<Real, dim>::Zero(), trial_force_ = Vec<Real, dim>::Zero();
 };
 

@@ -2,58 +2,77 @@
 #pragma once
 
 #include <stickslip/assembly/dofs.hpp>
+#include <stickslip/assembly/parts.hpp>
 #include <stickslip/base/null_space.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 #include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace stickslip {
 
-/// The motions of a body, where its nodal displacements have brought it, as if it were rigid: shifts, then turns about
-/// its centre by its extent's worth; in axisymmetry the shift along the axis alone.
+/// The motions of the parts of a body, where its nodal displacements have brought them, as if they were rigid: shifts,
+/// then turns about a part's centre by its extent's worth; in axisymmetry the shift along the axis alone.
 template <class Kinematics>
 class RigidMotions {
  public:
   static constexpr int dim = Kinematics::dim;
   static constexpr int count = Kinematics::hoop ? 1 : dim + dim * (dim - 1) / 2;
 
-  RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Field& u) : nodes_(nodes), u_(u) {
-    for (const auto& X : nodes) add(centre_, X, 1 / Real(nodes.size()));
-    for (const auto& X : nodes) extent_ = std::max(extent_, minus(X, centre_).norm());
+  RigidMotions(const std::vector<Vec<Real, dim>>& nodes, const Parts& parts)
+      : nodes_(nodes), parts_(parts), of_(static_cast<std::size_t>(parts.count())) {
+    u_.setZero(static_cast<Index>(nodes.size()) * dim);  // room for them
+    for (Index n = 0; n < static_cast<Index>(nodes.size()); ++n) ++part(n).nodes;
+    for (Index n = 0; n < static_cast<Index>(nodes.size()); ++n) add(part(n).centre, X(n), 1 / Real(part(n).nodes));
+    for (Index n = 0; n < static_cast<Index>(nodes.size()); ++n)
+      part(n).extent = std::max(part(n).extent, minus(X(n), part(n).centre).norm());
   }
 
-  /// Largest distance of a node from the centre [length].
-  Real extent() const { return extent_; }
-
-  /// Those of their combinations, an orthonormal nodal field each, that neither supports nor the matrix K resist: the
-  /// kernel of r.K r / `stiffness` + c.c, r their unknown and c their constrained components, to `least`.
-  std::vector<Field> unresisted(const Dofs& dofs, const SparseView& matrix, Real stiffness, Real least) const {
-    Mat<Real, count> resistance = Mat<Real, count>::Zero();
-    const auto resist = [&](const Components& a, Real value, const Components& b) {
-      for (std::size_t i = 0; i < a.size(); ++i)
-        for (std::size_t j = 0; j < b.size(); ++j)
-          resistance(static_cast<Index>(i), static_cast<Index>(j)) += a[i] * value * b[j];
-    };
+  /// Takes what resists them at the displacements u: the supports, and the matrix K.
+  void take(const Field& u, const Dofs& dofs, const SparseView& matrix) {
+    u_ = u;
+    for (OfPart& of : of_) {
+      of.resistance.setZero();
+      of.stiffness = 0;
+    }
+    for (Index j = 0; j < matrix.size; ++j)
+      for (Index s = matrix.column_start[j]; s < matrix.column_start[j + 1]; ++s) {
+        Real& stiffness = part(dofs.component(j) / dim).stiffness;
+        stiffness = std::max(stiffness, std::abs(matrix.values[s]));
+      }
     for (Index c = 0; c < dofs.components(); ++c)
-      if (dofs.equation(c) == Dofs::constrained) resist(at(c), 1, at(c));
+      if (dofs.equation(c) == Dofs::constrained) resist(part(c / dim), at(c), 1, at(c));
     for (Index j = 0; j < matrix.size; ++j) {
       const Index b = dofs.component(j);
       const Components there = at(b);
+      OfPart& of = part(b / dim);
+      if (!(of.stiffness > 0)) continue;
       for (Index s = matrix.column_start[j]; s < matrix.column_start[j + 1]; ++s) {
         const Index a = dofs.component(matrix.row[s]);
         const Components here = at(a);
-        resist(here, matrix.values[s] / stiffness, there);
-        if (matrix.symmetry == Symmetry::symmetric && a != b) resist(there, matrix.values[s] / stiffness, here);
+        resist(of, here, matrix.values[s] / of.stiffness, there);
+        if (matrix.symmetry == Symmetry::symmetric && a != b) resist(of, there, matrix.values[s] / of.stiffness, here);
       }
     }
+  }
+
+  /// Those of their combinations, an orthonormal nodal field each, that nothing resists in a part: the kernel of
+  /// r.K r / k + c.c, r their unknown and c their constrained components, k the largest stiffness of the part; to
+  /// 1e-11, or what a force resists by that is `imbalance`: out of balance by R, a stressed body that turns resists by
+  /// |R| / extent.
+  std::vector<Field> unresisted(Index number, Real imbalance) const {
+    const OfPart& of = of_[static_cast<std::size_t>(number)];
+    const Real stiffness = of.stiffness * of.extent;
+    const Real least = std::max(1e-11, stiffness > 0 ? imbalance / stiffness : 0);
     std::vector<Field> free;
-    for (const Components& combination : null_space<count>(resistance, least)) {
-      Field r = Field::Zero(dofs.components());
+    for (const Components& combination : null_space<count>(of.resistance, least)) {
+      Field r = Field::Zero(u_.size());
       for (Index c = 0; c < r.size(); ++c) {
+        if (parts_.at(c / dim) != number) continue;
         const Components motions = at(c);
         for (std::size_t k = 0; k < motions.size(); ++k) r[c] += combination[k] * motions[k];
       }
@@ -73,9 +92,8 @@ class RigidMotions {
     if constexpr (Kinematics::hoop) {
       motions[0] = i == dim - 1 ? 1 : 0;
     } else {
-      const auto x = [&](int k) {
-        return (nodes_[static_cast<std::size_t>(n)][k] + u_[n * dim + k] - centre_[k]) / extent_;
-      };
+      const OfPart& of = of_[static_cast<std::size_t>(parts_.at(n))];
+      const auto x = [&](int k) { return (X(n)[k] + u_[n * dim + k] - of.centre[k]) / of.extent; };
       motions[static_cast<std::size_t>(i)] = 1;
       for (int k = dim; k < count; ++k) {
         const int p = dim == 2 ? 0 : (k - 2) % 3, q = dim == 2 ? 1 : (k - 1) % 3;  // the plane it turns
@@ -85,10 +103,25 @@ class RigidMotions {
     return motions;
   }
 
+  struct OfPart {
+    Mat<Real, count> resistance = Mat<Real, count>::Zero();
+    Vec<Real, dim> centre = Vec<Real, dim>::Zero();
+    Real extent = 0;     // largest distance of a node from the centre [length]
+    Real stiffness = 0;  // largest entry of the matrix
+    Index nodes = 0;
+  };
+  OfPart& part(Index node) { return of_[static_cast<std::size_t>(parts_.at(node))]; }
+  const Vec<Real, dim>& X(Index node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  static void resist(OfPart& of, const Components& a, Real value, const Components& b) {
+    for (std::size_t i = 0; i < a.size(); ++i)
+      for (std::size_t j = 0; j < b.size(); ++j)
+        of.resistance(static_cast<Index>(i), static_cast<Index>(j)) += a[i] * value * b[j];
+  }
+
   const std::vector<Vec<Real, dim>>& nodes_;
-  const Field& u_;
-  Vec<Real, dim> centre_ = Vec<Real, dim>::Zero();
-  Real extent_ = 0;
+  Field u_;
+  const Parts& parts_;
+  std::vector<OfPart> of_;
 };
 
 }  // namespace stickslip

@@ -4,10 +4,12 @@
 #include <stickslip/assembly/body.hpp>
 #include <stickslip/assembly/contact_pair.hpp>
 #include <stickslip/assembly/inertia.hpp>
+#include <stickslip/assembly/parts.hpp>
 #include <stickslip/assembly/prescribed.hpp>
 #include <stickslip/assembly/rigid_motions.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -57,14 +59,23 @@ class System {
   static constexpr bool with_inertia = has_inertia<Model>;
   using Inertia = Only<with_inertia, InertiaForces<Model>, Body<Model>>;
 
+  /// `revision` tells systems of one scene apart, for those who keep what they made of its pattern.
   System(BodyType& body, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
-         const std::vector<SideValue>& loads)
-      : body_(body), pairs_(pairs), inertia_(inertia), extent_(body.mesh().extent()) {
+         const std::vector<SideValue>& loads, Index revision = 1)
+      : body_(body),
+        pairs_(pairs),
+        inertia_(inertia),
+        parts_(body.mesh()),
+        motions_(body.mesh().nodes, parts_),
+        prescribed_(dim, body.mesh().extent()),
+        extent_(body.mesh().extent()),
+        pattern_revision_(revision) {
     const Index components = body.mesh().node_count() * dim;
     for (const SideValue& d : driven) prescribed_.drive(d, body.mesh().side(d.side).nodes);
     for (const SideValue& l : loads)
       prescribed_.load(l, body.mesh().side(l.side).nodes, nodal_areas(body.mesh(), body.kinematics(), l.side));
     dofs_ = prescribed_.unknowns_of(components);
+    leaning_ = without_support();
     SparsityPattern pattern(dofs_, BodyType::storage);
     body.couple(pattern);
     matrix_.build(pattern);
@@ -89,11 +100,13 @@ class System {
     if constexpr (keeps_couplings<Model>) view.corrections = couplings_.view();
     return view;
   }
-  /// Increases when the pattern changes and the solver must analyse again.
+  /// Another one when the pattern has changed and the solver must analyse again.
   Index pattern_revision() const { return pattern_revision_; }
 
   /// Sets the driven and held components of a nodal field to their values at `time`.
   Trouble impose(Real time, Field& u) const { return prescribed_.impose(time, u); }
+  /// Which supports prescribe different values of one component at `time`, in words; empty if none do.
+  std::string contradiction(Real time) const { return prescribed_.contradiction(time); }
 
   /// Evaluates residual and tangent at the displacements u, `time` and the increment dt that leads there.
   Trouble evaluate(const Field& u, Real time, Real dt) { return evaluate(u, time, dt, nullptr, nullptr); }
@@ -246,23 +259,45 @@ class System {
   /// What all contact pairs did in the last evaluation.
   ContactSummary contact_summary() const {
     ContactSummary sum;
-    if constexpr (with_contact) for_each_contact(pairs_, [&](const auto& pair) { sum.merge(pair.summary()); });
+    if constexpr (with_contact) for_each_contact(pairs_, [&](const auto& pair) { sum.merge(pair.trial_summary()); });
     return sum;
   }
 
-  /// Whether nothing resists some rigid-body motion at the displacements u: no support, and not the tangent of the last
-  /// evaluation. With `moved`, whether besides that displacement has a part in it: what balance leaves open.
-  bool moves_freely(const Field& u, const Field* moved = nullptr) const {
-    const RigidMotions<typename Model::Kinematics> motions(body_.mesh().nodes, u);
-    const Real stiffness = matrix_.largest();
-    // Out of balance by R, a stressed body that turns resists by |R| / extent.
-    const Real least = std::max(1e-11, moved ? 10 * norm_ / (stiffness * motions.extent()) : 0);
-    const std::vector<Field> free = motions.unresisted(dofs_, matrix_.view(), stiffness, least);
-    if (!moved) return !free.empty();
-    Real share = 0;
-    for (const Field& r : free) share = std::hypot(share, r.dot(*moved));
-    return share > 1e-6 * moved->norm();
+  /// A part of the body of which nothing resists some rigid-body motion at the displacements u: no support, and not the
+  /// tangent of the last evaluation. With `moved`, one that besides has moved so in that displacement: what balance
+  /// leaves open. -1 if there is none; see `part_name`.
+  Index free_part(const Field& u, const Field* moved = nullptr) {
+    motions_.take(u, dofs_, matrix_.view());
+    for (Index part = 0; part < parts_.count(); ++part) {
+      const std::vector<Field> free = motions_.unresisted(part, moved ? 10 * norm_ : 0);
+      if (free.empty()) continue;
+      if (!moved) return part;
+      Real share = 0, whole = 0;
+      for (const Field& r : free) share = std::hypot(share, r.dot(*moved));
+      for (Index c = 0; c < moved->size(); ++c)
+        if (parts_.at(c / dim) == part) whole = std::hypot(whole, (*moved)[c]);
+      if (share > 1e-6 * whole) return part;
+    }
+    return -1;
   }
+  /// Whether there is one.
+  bool moves_freely(const Field& u, const Field* moved = nullptr) { return free_part(u, moved) >= 0; }
+  /// A part of the body that may shift in some direction, for it has no support there and touches no tool; at the start
+  /// of a run (`ever`), for it has no node that could. -1 if there is none. Deformation resists no shift.
+  Index loose_part([[maybe_unused]] bool ever) const {
+    for (const Index part : leaning_) {
+      bool held = false;
+      if constexpr (with_contact)
+        for_each_contact(pairs_, [&](const auto& pair) {
+          for (std::size_t k = 0; k < pair.nodes().size() && !held; ++k)
+            held = parts_.at(pair.nodes()[k]) == part && (ever || pair.touches(k));
+        });
+      if (!held) return part;
+    }
+    return -1;
+  }
+  /// What a part is called in a sentence; empty where the body is of one.
+  std::string part_name(Index part) const { return parts_.name(part, body_.mesh()); }
 
   /// Whether friction alone resists some rigid-body motion at the displacements u and `time`: without it nothing does.
   bool held_by_friction(const Field& u, Real time) requires(has_friction<Model>) {
@@ -275,7 +310,7 @@ class System {
       std::string names;
       for_each_contact(pairs_, [&](const auto& pair) {
         if constexpr (std::remove_reference_t<decltype(pair)>::with_friction)
-          if (pair.summary().touching > 0 && takes(pair.summary()))
+          if (pair.trial_summary().touching > 0 && takes(pair.trial_summary()))
             names += (names.empty() ? "contact \"" : ", contact \"") + pair.name() + "\"";
       });
       return names;
@@ -317,6 +352,23 @@ class System {
     norm_ = residual_.norm();
     if (!std::isfinite(norm_)) return {Cause::not_finite, {}};
     return {};
+  }
+
+  // The parts that have no support against some shift; in axisymmetry against that along the axis.
+  std::vector<Index> without_support() const {
+    constexpr Index first = Model::Kinematics::hoop ? dim - 1 : 0;
+    std::vector<bool> held(static_cast<std::size_t>(parts_.count() * dim), false);
+    for (Index c = 0; c < dofs_.components(); ++c)
+      if (dofs_.equation(c) == Dofs::constrained)
+        held[static_cast<std::size_t>(parts_.at(c / dim) * dim + c % dim)] = true;
+    std::vector<Index> without;
+    for (Index part = 0; part < parts_.count(); ++part)
+      for (Index i = first; i < dim; ++i)
+        if (!held[static_cast<std::size_t>(part * dim + i)]) {
+          without.push_back(part);
+          break;
+        }
+    return without;
   }
 
   template <class Visit>
@@ -372,14 +424,17 @@ class System {
   Dofs dofs_;
   Matrix matrix_;
   [[no_unique_address]] Only<keeps_couplings<Model>, NodeCouplings<dim>, System> couplings_;
-  Prescribed prescribed_{dim};
+  Parts parts_;
+  RigidMotions<typename Model::Kinematics> motions_;
+  std::vector<Index> leaning_;  // parts that only a tool could hold against some shift
+  Prescribed prescribed_;
   Field internal_, contact_, external_, balance_, residual_;
   Field excess_;  // forces that closing the stiff relations' defects adds, by component
   Field open_;    // the residual without them
   [[no_unique_address]] Only<with_inertia, Field, System> static_force_;
   Real norm_ = 0, merit_ = 0;
   Real extent_;  // largest reference coordinate
-  Index pattern_revision_ = 1;
+  Index pattern_revision_;
 };
 
 }  // namespace stickslip

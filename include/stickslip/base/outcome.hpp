@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/brief.hpp>
 #include <stickslip/base/types.hpp>
 
 #include <string>
@@ -18,11 +19,12 @@ enum class Cause {
   singular_matrix,   ///< the factorisation met a zero pivot: a rigid-body mode or a limit point
   unsupported,       ///< a rigid-body motion that no support and no tool resists
   slides,            ///< nothing but friction holds the body, and it is not enough
-  not_converged,     ///< the iteration limit was reached
-  passes_failed,     ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
-  lag_feeds_back,    ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
-  tunnelled,         ///< a node's way over the step led through a tool, whose force it never felt
-  stalled,           ///< no step along the Newton direction lowers the residual
+  contradicting_supports,  ///< two supports that prescribe different values of one component
+  not_converged,           ///< the iteration limit was reached
+  passes_failed,           ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
+  lag_feeds_back,          ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
+  tunnelled,               ///< a node's way over the step led through a tool, whose force it never felt
+  stalled,                 ///< no step along the Newton direction lowers the residual
 };
 
 /// The sentence part that names a cause.
@@ -46,6 +48,8 @@ inline const char* describe(Cause cause) {
       return "nothing holds the body: no support and no tool resists a rigid-body motion of it";
     case Cause::slides:
       return "nothing but friction holds the body, and it slides";
+    case Cause::contradicting_supports:
+      return "two supports contradict each other";
     case Cause::not_converged:
       return "the Newton iteration did not converge within its limit";
     case Cause::passes_failed:
@@ -92,14 +96,14 @@ struct [[nodiscard]] Outcome {
   std::string message() const {
     if (*this) return "completed";
     std::string text =
-        "step " + std::to_string(step) + " after time " + std::to_string(time) + " failed: " + describe(trouble.cause);
+        "step " + std::to_string(step) + " after time " + brief(time) + " failed: " + describe(trouble.cause);
     if (trouble.place.kind == Place::Kind::element) text += " (element " + std::to_string(trouble.place.number) + ")";
     if (trouble.place.kind == Place::Kind::node) text += " (node " + std::to_string(trouble.place.number) + ")";
     if (trouble.place.kind == Place::Kind::contact_node)
       text += " (contact node " + std::to_string(trouble.place.number) + ")";
     if (!detail.empty()) text += ": " + detail;
-    return text + "; tried " + std::to_string(attempts) + " times down to a time increment of " +
-           std::to_string(tried_step);
+    if (attempts == 0) return text;
+    return text + "; tried " + std::to_string(attempts) + " times down to a time increment of " + brief(tried_step);
   }
 };
 

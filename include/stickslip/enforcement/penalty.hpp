@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/policy/enforcement.hpp>
-
-#include <stdexcept>
 
 namespace stickslip {
 
@@ -30,8 +29,8 @@ struct Penalty {
   Real energy(Real gap, Real weight) const { return 0.5 * normal * weight * gap * gap; }
 
   void validate() const {
-    if (!(normal > 0)) throw std::invalid_argument("penalty: the normal stiffness must be positive");
-    if (!(tangential >= 0)) throw std::invalid_argument("penalty: the tangential stiffness must not be negative");
+    require::positive(normal, "penalty: the normal stiffness");
+    require::not_negative(tangential, "penalty: the tangential stiffness");
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/friction/pressure_source.hpp>
 
 #include <cmath>
@@ -39,6 +40,8 @@ struct AnisotropicCoulomb {
   void validate() const {
     if (!(mu_along > 0 && mu_across > 0))
       throw std::invalid_argument("anisotropic Coulomb friction: both coefficients must be positive");
+    require::finite(mu_along, "anisotropic Coulomb friction: mu_along");
+    require::finite(mu_across, "anisotropic Coulomb friction: mu_across");
     if (!(direction.norm() > 0) || !direction.allFinite())
       throw std::invalid_argument("anisotropic Coulomb friction: the direction must be a finite vector, not zero");
   }

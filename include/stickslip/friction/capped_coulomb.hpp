@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/friction/pressure_source.hpp>
 
 #include <stdexcept>
@@ -29,7 +30,7 @@ struct CappedCoulomb {
     return {capped ? S(cap) : sliding, S(capped ? 0 : mu), S(0)};
   }
   void validate() const {
-    if (!(mu >= 0)) throw std::invalid_argument("capped Coulomb friction: the coefficient mu must not be negative");
+    require::not_negative(mu, "capped Coulomb friction: the coefficient mu");
     if (!(tau_max > 0))
       throw std::invalid_argument("capped Coulomb friction: the shear stress tau_max must be positive");
   }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/friction/pressure_source.hpp>
-
-#include <stdexcept>
 
 namespace stickslip {
 
@@ -22,9 +21,7 @@ struct Coulomb {
   FrictionBound<S> bound(const FrictionPoint<S>& at) const {
     return {at.pressure * mu, S(mu), S(0)};
   }
-  void validate() const {
-    if (!(mu >= 0)) throw std::invalid_argument("Coulomb friction: the coefficient mu must not be negative");
-  }
+  void validate() const { require::not_negative(mu, "Coulomb friction: the coefficient mu"); }
 };
 
 /// The paper's law: Coulomb's bound at the last converged normal force.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/friction/pressure_source.hpp>
 
 #include <cmath>
@@ -32,7 +33,8 @@ struct SlipWeakeningCoulomb {
   void validate() const {
     if (!(mu_dynamic >= 0 && mu_static >= mu_dynamic))
       throw std::invalid_argument("slip-weakening friction: needs 0 <= mu_dynamic <= mu_static");
-    if (!(length > 0)) throw std::invalid_argument("slip-weakening friction: the length must be positive");
+    require::finite(mu_static, "slip-weakening friction: mu_static");
+    require::positive(length, "slip-weakening friction: the length");
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/friction/pressure_source.hpp>
 
 #include <cmath>
@@ -40,8 +41,9 @@ struct Stribeck {
   void validate() const {
     if (!(mu_dynamic >= 0 && mu_static >= mu_dynamic))
       throw std::invalid_argument("Stribeck friction: needs 0 <= mu_dynamic <= mu_static");
-    if (!(speed > 0)) throw std::invalid_argument("Stribeck friction: the speed must be positive");
-    if (!(rounding > 0)) throw std::invalid_argument("Stribeck friction: the rounding must be positive");
+    require::finite(mu_static, "Stribeck friction: mu_static");
+    require::positive(speed, "Stribeck friction: the speed");
+    require::positive(rounding, "Stribeck friction: the rounding");
   }
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/friction/pressure_source.hpp>
-
-#include <stdexcept>
 
 namespace stickslip {
 
@@ -24,9 +23,7 @@ struct Tresca {
   FrictionBound<S> bound(const FrictionPoint<S>& at) const {
     return {S(tau * at.area), S(0), S(0)};
   }
-  void validate() const {
-    if (!(tau >= 0)) throw std::invalid_argument("Tresca friction: the shear stress tau must not be negative");
-  }
+  void validate() const { require::not_negative(tau, "Tresca friction: the shear stress tau"); }
 };
 static_assert(friction_symmetry<Tresca>() == Symmetry::symmetric);
 

@@ -4,6 +4,7 @@
 #include <stickslip/geometry/surface_point.hpp>
 
 #include <concepts>
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -29,6 +30,18 @@ class AnyOf {
   template <class S>
   Distance<S, 3> distance(const Vec<S, 3>& x) const {
     return std::visit([&](const auto& tool) -> Distance<S, 3> { return tool.distance(x); }, tool_);
+  }
+
+  /// Smallest size that nodes should resolve; infinite for a tool that does not tell [length].
+  Real smallest_size() const {
+    return std::visit(
+        [](const auto& tool) {
+          if constexpr (requires { tool.smallest_size(); })
+            return Real(tool.smallest_size());
+          else
+            return std::numeric_limits<Real>::infinity();
+        },
+        tool_);
   }
 
   /// The tool itself, if it is of the kind `Tool`; null if not.

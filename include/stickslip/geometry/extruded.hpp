@@ -28,6 +28,8 @@ class Extruded {
 
   bool empty() const { return section_.empty(); }
   const Profile& section() const { return section_; }
+  /// Smallest size that nodes should resolve: the section's [length].
+  Real smallest_size() const { return section_.smallest_size(); }
 
   /// The surface seen from x, a point in the tool's frame.
   template <class S>

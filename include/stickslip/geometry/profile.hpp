@@ -37,6 +37,7 @@ class Profile {
   Profile& left(Real radius, Real angle) { return add_arc(radius, angle, -1); }
   /// Turns on the spot by `angle` [rad], positive to the left: a sharp corner.
   Profile& corner(Real angle) {
+    if (!std::isfinite(angle)) throw std::invalid_argument("profile: a corner's angle must be finite");
     heading_ = rotate(heading_, std::cos(angle), std::sin(angle));
     return *this;
   }
@@ -95,6 +96,48 @@ class Profile {
       return from_corner(x, position(*best, best_excess > 0 ? best->high : best->low),
                          best->offset + (best_excess > 0 ? best->high : best->low), joint);
     return best->curvature == 0 ? from_line(*best, x) : from_arc(*best, x);
+  }
+
+  /// Smallest size of the tool that nodes should resolve [length]: the least radius of an arc that is convex towards
+  /// the body, the least thickness of a wall that ends in two sharp corners, the width of a closed chain, the reach of
+  /// one with two ends. Sharp corners have no size, and re-entrant arcs are not asked for. Infinite for an endless
+  /// line.
+  Real smallest_size() const {
+    Real size = infinity;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const Piece& p = pieces_[k];
+      if (p.curvature > 0) size = std::min(size, 1 / p.curvature);
+      if (k == 0 || k + 1 == pieces_.size() || p.curvature != 0) continue;
+      const Piece &before = pieces_[k - 1], &after = pieces_[k + 1];
+      if (p.start_joint == Joint::standing_out && p.end_joint == Joint::standing_out && before.curvature == 0 &&
+          after.curvature == 0 && before.heading.dot(after.heading) < -0.5)
+        size = std::min(size, p.high - p.low);
+    }
+    if (pieces_.empty() || std::isinf(pieces_.front().low)) return size;
+    // What it measures across its straight pieces, and in directions at 3 degrees from each other.
+    Real least = infinity, largest = 0;
+    const std::vector<Vec<Real, 2>> points = sample(length_ / 240, 0);
+    const auto measure = [&](const Vec<Real, 2>& along) {
+      Real low = infinity, high = -infinity;
+      for (const Vec<Real, 2>& x : points) {
+        low = std::min(low, along.dot(x));
+        high = std::max(high, along.dot(x));
+      }
+      least = std::min(least, high - low);
+      largest = std::max(largest, high - low);
+    };
+    for (int i = 0; i < 60; ++i) measure({std::cos(pi * i / 60), std::sin(pi * i / 60)});
+    for (const Piece& p : pieces_)
+      if (p.curvature == 0) measure(left_of(p.heading));
+    return std::min(size, period_ > 0 ? least : largest);
+  }
+  /// Largest magnitude of the first coordinate [length]; infinite where an endless piece runs along it.
+  Real breadth() const {
+    Real largest = 0;
+    for (const Piece& p : pieces_)
+      if (std::isinf(p.high - p.low) && std::abs(p.heading[0]) > 1e-12) return infinity;
+    for (const Vec<Real, 2>& x : sample(length_ / 240, 0)) largest = std::max(largest, std::abs(x[0]));
+    return largest;
   }
 
   /// Points along the chain for a picture, at most `spacing` apart, endless pieces cut `reach` after their anchor.

@@ -4,6 +4,7 @@
 #include <stickslip/geometry/profile.hpp>
 #include <stickslip/geometry/space.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -33,6 +34,8 @@ class Revolution {
 
   bool empty() const { return meridian_.empty(); }
   const Profile& meridian() const { return meridian_; }
+  /// Smallest size that nodes should resolve: the meridian's, or the largest radius, that of a pin [length].
+  Real smallest_size() const { return std::min(meridian_.smallest_size(), meridian_.breadth()); }
 
   /// The surface seen from x, a point in the tool's frame.
   template <class S>

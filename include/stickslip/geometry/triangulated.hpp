@@ -58,6 +58,19 @@ class Triangulated {
   bool empty() const { return patches_.empty(); }
   /// Number of triangles.
   Index size() const { return static_cast<Index>(patches_.size()); }
+  /// Smallest size that nodes should resolve: the least edge of the box around a closed surface, the largest of an open
+  /// one [length].
+  Real smallest_size() const {
+    V low = patches_[0].x[0], high = low;
+    bool closed = true;
+    for (const Patch& patch : patches_)
+      for (std::size_t k = 0; k < 3; ++k) {
+        low = low.cwiseMin(patch.x[k]);
+        high = high.cwiseMax(patch.x[k]);
+        closed = closed && patch.edge[k] != Rim::open;
+      }
+    return closed ? (high - low).minCoeff() : (high - low).maxCoeff();
+  }
 
   /// The surface seen from x, a point in the tool's frame.
   template <class S>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/policy/inertia.hpp>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace stickslip {
@@ -20,7 +22,8 @@ inline TimeScheme chung_hulbert(Real spectral_radius) {
 
 /// Newmark's scheme; the defaults are the trapezoidal rule.
 inline TimeScheme newmark(Real beta = 0.25, Real gamma = 0.5) {
-  if (!(beta > 0 && gamma >= 0.5)) throw std::invalid_argument("Newmark: beta must be positive and gamma at least 1/2");
+  if (!(beta > 0 && gamma >= 0.5 && std::isfinite(beta) && std::isfinite(gamma)))
+    throw std::invalid_argument("Newmark: beta must be positive and gamma at least 1/2, both finite");
   return {0, 0, beta, gamma};
 }
 
@@ -40,8 +43,13 @@ struct GeneralizedAlpha {
   bool lumped = false;
 
   void validate() const {
-    if (!(density > 0)) throw std::invalid_argument("inertia: the density must be positive");
-    if (!(scheme.beta > 0)) throw std::invalid_argument("inertia: the scheme's beta must be positive");
+    require::positive(density, "inertia: the density");
+    require::positive(scheme.beta, "inertia: the scheme's beta");
+    require::finite(scheme.gamma, "inertia: the scheme's gamma");
+    require::finite(scheme.alpha_m, "inertia: the scheme's alpha_m");
+    require::finite(scheme.alpha_f, "inertia: the scheme's alpha_f");
+    if (!(scheme.alpha_m < 1 && scheme.alpha_f < 1))
+      throw std::invalid_argument("inertia: the scheme's alpha_m and alpha_f must lie below 1");
   }
 };
 

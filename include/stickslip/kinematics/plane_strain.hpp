@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/base/role.hpp>
 #include <stickslip/tensor/tensor.hpp>
-
-#include <stdexcept>
 
 namespace stickslip {
 
@@ -20,9 +19,7 @@ struct PlaneStrain {
   /// Extent normal to the plane at reference point X: volume per area of the section [length].
   Real measure(const Vec<Real, 2>&) const { return thickness; }
 
-  void validate() const {
-    if (!(thickness > 0)) throw std::invalid_argument("plane strain: the thickness must be positive");
-  }
+  void validate() const { require::positive(thickness, "plane strain: the thickness"); }
 };
 
 }  // namespace stickslip

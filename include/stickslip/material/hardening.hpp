@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/require.hpp>
 #include <stickslip/policy/material.hpp>
 
 #include <cmath>
@@ -19,9 +20,7 @@ struct PerfectPlasticity {
   }
   /// Plastic work per reference volume up to p: the integral of the flow stress.
   Real work(Real p) const { return yield * p; }
-  void validate() const {
-    if (!(yield > 0)) throw std::invalid_argument("perfect plasticity: the yield stress must be positive");
-  }
+  void validate() const { require::positive(yield, "perfect plasticity: the yield stress"); }
 };
 
 /// sigma(p) = yield + modulus p. A negative modulus softens.
@@ -37,8 +36,8 @@ struct LinearHardening {
   /// Plastic work per reference volume up to p: the integral of the flow stress.
   Real work(Real p) const { return p * (yield + 0.5 * modulus * p); }
   void validate() const {
-    if (!(yield > 0)) throw std::invalid_argument("linear hardening: the yield stress must be positive");
-    if (!std::isfinite(modulus)) throw std::invalid_argument("linear hardening: the modulus must be finite");
+    require::positive(yield, "linear hardening: the yield stress");
+    require::finite(modulus, "linear hardening: the modulus");
   }
 };
 
@@ -61,7 +60,8 @@ struct PowerHardening {
     return strength / (exponent + 1) * (std::pow(offset + p, exponent + 1) - std::pow(offset, exponent + 1));
   }
   void validate() const {
-    if (!(strength > 0)) throw std::invalid_argument("power hardening: the strength must be positive");
+    require::positive(strength, "power hardening: the strength");
+    require::finite(offset, "power hardening: the offset");
     if (!(offset > 0))
       throw std::invalid_argument("power hardening: the offset must be positive, or the flow stress starts at zero");
     if (!(exponent > 0 && exponent <= 1))
@@ -92,10 +92,10 @@ struct VoceHardening {
     return p * (saturation + 0.5 * modulus * p) + (saturation - yield) / rate * std::expm1(-rate * p);
   }
   void validate() const {
-    if (!(yield > 0)) throw std::invalid_argument("Voce hardening: the yield stress must be positive");
-    if (!(saturation > 0)) throw std::invalid_argument("Voce hardening: the saturation stress must be positive");
-    if (!(rate > 0)) throw std::invalid_argument("Voce hardening: the rate must be positive");
-    if (!std::isfinite(modulus)) throw std::invalid_argument("Voce hardening: the modulus must be finite");
+    require::positive(yield, "Voce hardening: the yield stress");
+    require::positive(saturation, "Voce hardening: the saturation stress");
+    require::positive(rate, "Voce hardening: the rate");
+    require::finite(modulus, "Voce hardening: the modulus");
   }
 };
 

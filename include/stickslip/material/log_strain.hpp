@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/base/outcome.hpp>
+#include <stickslip/base/require.hpp>
 #include <stickslip/tensor/products.hpp>
 #include <stickslip/tensor/spectral.hpp>
 
@@ -19,7 +20,7 @@ struct ElasticModuli {
     return {young / (3 * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
   }
   static void validate(Real young, Real poisson) {
-    if (!(young > 0)) throw std::invalid_argument("material: Young's modulus must be positive");
+    require::positive(young, "material: Young's modulus");
     if (!(poisson > -1 && poisson < 0.5))
       throw std::invalid_argument("material: Poisson's ratio must lie between -1 and 0.5, both excluded");
   }

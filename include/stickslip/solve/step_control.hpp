@@ -2,10 +2,13 @@
 #pragma once
 
 #include <stickslip/base/archive.hpp>
+#include <stickslip/base/brief.hpp>
+#include <stickslip/base/require.hpp>
 #include <stickslip/base/types.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -34,20 +37,39 @@ struct MarchOptions {
   bool watch_lag = true;      ///< probe lagging bounds that swing, and at the end, and give up where they feed back
   std::vector<Real> stops{};  ///< times that a step must end at
 
+  /// Throws std::invalid_argument, naming what is wrong, for a run that begins at the time `now`.
   void validate(Real now) const {
-    if (!(end > now) || !std::isfinite(end))
-      throw std::invalid_argument("march: the end must lie after the present time");
-    if (steps < 0) throw std::invalid_argument("march: the number of steps must not be negative");
-    if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument("march: the tolerance must lie between 0 and 1");
-    if (max_iterations < 1) throw std::invalid_argument("march: needs at least one iteration");
-    if (!(pass_tolerance > 0)) throw std::invalid_argument("march: the pass tolerance must be positive");
-    if (space_every < 0) throw std::invalid_argument("march: the steps between estimates must not be negative");
-    if (max_passes < 1) throw std::invalid_argument("march: needs at least one pass");
-    if (!(time_tolerance >= 0)) throw std::invalid_argument("march: the time tolerance must not be negative");
-    if (!(lag_tolerance >= 0)) throw std::invalid_argument("march: the lag tolerance must not be negative");
-    if (!(step_tolerance >= 0)) throw std::invalid_argument("march: the step tolerance must not be negative");
-    if (initial < 0 || largest < 0 || smallest < 0)
-      throw std::invalid_argument("march: step sizes must not be negative");
+    const auto refuse = [](const std::string& what) { throw std::invalid_argument("march: " + what); };
+    if (!(end > now) || !std::isfinite(end)) refuse("the end must lie after the present time");
+    if (steps < 0) refuse("the number of steps must not be negative");
+    if (!(initial >= 0 && largest >= 0 && smallest >= 0)) refuse("step sizes must not be negative");
+    require::finite(initial, "march: the first step size");
+    require::finite(largest, "march: the largest step size");
+    require::finite(smallest, "march: the smallest step size");
+    if (wanted_iterations < 1) refuse("wanted_iterations must be positive");
+    if (!(tolerance > 0 && tolerance < 1)) refuse("the tolerance must lie between 0 and 1");
+    if (max_iterations < 1) refuse("needs at least one iteration");
+    if (max_passes < 1) refuse("needs at least one pass");
+    if (space_every < 0) refuse("the steps between estimates must not be negative");
+    require::positive(pass_tolerance, "march: the pass tolerance");
+    require::not_negative(time_tolerance, "march: the time tolerance");
+    require::not_negative(lag_tolerance, "march: the lag tolerance");
+    require::not_negative(step_tolerance, "march: the step tolerance");
+    for (const Real stop : stops)
+      if (!std::isfinite(stop)) refuse("every stop must be finite");
+    const Real resolved = resolution(now);
+    const auto resolve = [&](Real size, const char* what) {
+      if (size < resolved)
+        refuse(std::string(what) + " of " + brief(size) + " is below what a time of " + brief(std::max(now, end)) +
+               " resolves, " + brief(resolved));
+    };
+    if (steps > 0) return resolve((end - now) / steps, "equal steps");
+    resolve(initial > 0 ? initial : (end - now) / 100, "a first step");
+    if (largest > 0) resolve(largest, "a largest step");
+  }
+  /// The least step that a run from `begin` takes: some digits of it must be left in the time at its end.
+  Real resolution(Real begin) const {
+    return 64 * std::numeric_limits<Real>::epsilon() * std::max(std::abs(begin), std::abs(end));
   }
 };
 
@@ -73,13 +95,13 @@ class StepControl {
     Real limit = options_.end;
     if (options_.steps > 0) limit = std::min(limit, grid(done_ + 1));
     for (const Real stop : options_.stops)
-      if (stop > time_ + 1e-12 * options_.end) {
+      if (stop > time_ + 1e-12 * std::max(std::abs(begin_), std::abs(options_.end))) {
         limit = std::min(limit, stop);
         break;
       }
-    // A remainder that would leave a sliver is taken along or shared.
+    // A remainder that would leave a sliver is taken along or shared; equal steps that were cut share less of it.
     if (wanted >= limit - 1e-9 * size_) return limit;
-    if (options_.steps == 0 && wanted > limit - 0.5 * size_) return time_ + 0.5 * (limit - time_);
+    if (wanted > limit - (options_.steps == 0 ? 0.5 : 0.1) * size_) return time_ + 0.5 * (limit - time_);
     return wanted;
   }
 
@@ -89,12 +111,19 @@ class StepControl {
     const Real taken = time - time_;
     time_ = time;
     if (options_.steps > 0) {
-      if (time_ >= grid(done_ + 1) * (1 - 1e-12)) {
+      const Real equal = (options_.end - begin_) / options_.steps;
+      if (time_ >= grid(done_ + 1) - 1e-9 * equal) {
         ++done_;
-        size_ = (options_.end - begin_) / options_.steps;
+        size_ = equal;
+        wait_ = 0;
+      } else if (wait_ > 0) {
+        --wait_;
+      } else {
+        size_ = std::min(1.5 * size_, equal);  // a cut of any depth is made up for in some steps
       }
       return;
     }
+    const Real before = size_;
     Real factor = std::clamp(std::sqrt(Real(options_.wanted_iterations) / std::max<Index>(iterations, 1)), 0.5, 1.5);
     // Where a smaller step did not take fewer iterations, still smaller ones are no use.
     if (factor >= 1) last_shrunk_ = 0;
@@ -106,10 +135,15 @@ class StepControl {
     // A first contact lags wholly at any size, so one step says little.
     if (excess > 0) size_ = std::min(size_, taken * std::clamp(1 / excess, 0.5, 2.0));
     if (options_.largest > 0) size_ = std::min(size_, options_.largest);
+    // What a step that converged wishes for is no reason to give up the next.
+    size_ = std::max(size_, std::min(before, smallest_));
   }
 
   /// Gives up a step that was to end at `time` and did not converge.
-  void reject(Real time) { size_ = 0.4 * (time - time_); }
+  void reject(Real time) {
+    size_ = 0.4 * (time - time_);
+    wait_ = 1;  // the next step is as long, for one that converges says little
+  }
   /// Gives up one that converged with too large an error.
   void reject(Real time, Real error) { size_ = (time - time_) * error_factor(error); }
 
@@ -122,11 +156,16 @@ class StepControl {
     archive("run, step size", size_);
     archive("run, steps of the grid", done_);
     archive("run, iterations at the last cut", last_shrunk_);
+    archive("run, steps before the size grows", wait_);
     if (archive.gives()) smallest_ = smallest();
   }
 
  private:
-  Real smallest() const { return options_.smallest > 0 ? options_.smallest : 1e-9 * (options_.end - begin_); }
+  // Never less than what the time resolves: a step would end where it began.
+  Real smallest() const {
+    const Real asked = options_.smallest > 0 ? options_.smallest : 1e-9 * (options_.end - begin_);
+    return std::max(asked, options_.resolution(begin_));
+  }
   // The error goes with the cube of the size; a part is kept in reserve.
   static Real error_factor(Real error) { return std::clamp(0.9 / std::cbrt(error), 0.2, 2.0); }
   Real grid(Index k) const {
@@ -136,6 +175,7 @@ class StepControl {
   MarchOptions options_;
   Real begin_, time_, size_ = 0, smallest_ = 0;
   Index done_ = 0;
+  Index wait_ = 0;         // of equal steps that were cut: converged ones before the size grows
   Index last_shrunk_ = 0;  // iterations of the step after which the size was last lowered for their sake; 0: it was not
 };
 
