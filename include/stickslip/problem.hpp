@@ -9,6 +9,8 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <string>
+#include <utility>
 
 namespace stickslip {
 
@@ -205,7 +207,9 @@ void March<Model>::advance() {
     const Real time = now_.control.next();
     const Real dt = time - problem_.time_;
     const bool guessed = problem_.guess(dt, u);
-    const Trouble trouble = system.impose(time, u);
+    Trouble trouble = system.impose(time, u);
+    if constexpr (has_friction<Model>)
+      if (!trouble) trouble = system.set_out(problem_.u_, problem_.time_, time);
     NewtonReport newton;
     if (trouble) {
       newton.trouble = trouble;
@@ -216,10 +220,18 @@ void March<Model>::advance() {
       u = problem_.u_;
       newton = newton_.solve(system, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
     }
+    if constexpr (has_friction<Model>)
+      if (!newton.trouble && system.must_follow(problem_.u_, u)) {
+        const Index unfollowed = newton.iterations;
+        newton = newton_.resume(system, u, time, dt);
+        newton.iterations += unfollowed;
+      }
     Index passes = 1;
     const Index first_iterations = newton.iterations;
     if constexpr (takes_passes<Model>())
       if (!newton.trouble) passes = pass_again(u, time, dt, newton);
+    if constexpr (has_friction<Model>)
+      if (!newton.trouble) newton.trouble = system.slide_turned();
     if constexpr (has_contact<Model>)
       if (!newton.trouble && options_.watch_ways)
         newton.trouble = system.passed_through(problem_.u_, u, problem_.time_, time);
@@ -273,7 +285,10 @@ void March<Model>::advance() {
       if constexpr (!has_inertia<Model>)
         if (!system.evaluate(problem_.u_, problem_.time_, dt) && system.moves_freely(problem_.u_))
           newton.trouble = {Cause::unsupported, {}};
-      return fail(newton.trouble, problem_.time_, dt, rejected);
+      std::string detail;
+      if constexpr (has_friction<Model>)
+        if (newton.trouble.cause == Cause::slide_turns) detail = system.turned_too_far();
+      return fail(newton.trouble, problem_.time_, dt, rejected, std::move(detail));
     }
   }
 }
