@@ -271,6 +271,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   Trouble set_out(const MeshType& mesh, const Field& from, Real begin, Real end) requires with_friction {
     along_.take(motion_, begin, end);
     follows_ = along_.turns();
+    for (std::size_t i = 0; i < along_.size(); ++i)
+      if (const Trouble t = stretched(along_[i].pose)) return t;
     if (!along_.resolved()) return {Cause::slide_turns, {Place::Kind::contact_node, nodes_[0]}};
     if (follows_) depart(mesh, from);
     return {};

@@ -36,14 +36,14 @@ class PosesAlong {
     for (const Real share : {0.0, 0.2360679774997897, 0.5278640450004206, 0.7639320225002103, 1.0})
       poses_.push_back(at(motion, share));
     Real turn = 0, way = 0;
-    bool finite = true;
+    bool rigid = true;
     for (std::size_t i = 1; i < poses_.size(); ++i) {
       turn = std::max(turn, angle(poses_[i - 1], poses_[i]));
       way += distance(poses_[i - 1], poses_[i]);
-      finite = finite && poses_[i].pose.finite();
+      rigid = rigid && poses_[i].pose.rigid() && poses_[i].pose.finite();
     }
-    // What is not finite is found where the tool is looked at.
-    turns_ = finite && (turn > 1e-12 || way > straight * distance(poses_.front(), poses_.back()));
+    // What is no pose is told of where the tool is looked at.
+    turns_ = rigid && (turn > 1e-12 || way > straight * distance(poses_.front(), poses_.back()));
     if (!turns_) return;
     const std::array<At, 5> coarse{poses_[0], poses_[1], poses_[2], poses_[3], poses_[4]};
     poses_.clear();
