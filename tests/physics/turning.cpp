@@ -218,6 +218,9 @@ TEST_CASE("the poses along a step: turns are seen at any rate, and how many it t
   CHECK(along.turns());
   along.take([](Real t) { return rigid::turned(1e4 * t, {0, 0}); }, 0, 1);
   CHECK(!along.resolved());
+  along.take([](Real t) { return rigid::turned(t < 0.4 ? 0 : 0.5, {0, 0}); }, 0, 1);  // a jump is one turn
+  CHECK(along.resolved());
+  CHECK(along.size() < 200);
 }
 
 }  // namespace turning

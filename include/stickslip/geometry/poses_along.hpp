@@ -96,8 +96,10 @@ class PosesAlong {
       poses_.push_back(b);
       return;
     }
-    if (!(std::isfinite(turn) && std::isfinite(way)) || depth == deepest || poses_.size() >= largest) {
-      resolved_ = resolved_ && !(std::isfinite(turn) && std::isfinite(way));
+    const bool finite = std::isfinite(turn) && std::isfinite(way);
+    if (!finite || depth == deepest || poses_.size() >= largest) {
+      // A jump is steady, however short the interval.
+      resolved_ = resolved_ && (!finite || (steady && depth == deepest));
       poses_.push_back(b);
       return;
     }
