@@ -624,6 +624,8 @@ const Hard spins(
               const Real turns = 12 * late(t) * angle, most = 11.7 * angle;
               return turned(turn(axis * V(0, 1, 0), most - std::abs(turns - most)), {0, 0, 0}, {0.5, 0.5, -0.5});
             };
+            s.marches[1].steps = 0;
+            s.marches[1].initial = s.marches[1].largest = 1.0 / 12;
             const Played back = completes(c, b, s, {}, 1);
             c.small(apart(V(back.forces[0][0], back.forces[0][1], 0), V(-friction)), 1e-3, at + ": back");
             c.near(back.report.max_slip, 12 * angle * 0.5, 2e-2, at + ": slid distance and back");
