@@ -282,12 +282,12 @@ void March<Model>::advance() {
     give_up();
     now_.control.reject(time);
     if (now_.control.too_small()) {
-      if constexpr (!has_inertia<Model>)
-        if (!system.evaluate(problem_.u_, problem_.time_, dt) && system.moves_freely(problem_.u_))
-          newton.trouble = {Cause::unsupported, {}};
       std::string detail;
       if constexpr (has_friction<Model>)
         if (newton.trouble.cause == Cause::slide_turns) detail = system.turned_too_far();
+      if constexpr (!has_inertia<Model>)
+        if (!system.evaluate(problem_.u_, problem_.time_, dt) && system.moves_freely(problem_.u_))
+          newton.trouble = {Cause::unsupported, {}};
       return fail(newton.trouble, problem_.time_, dt, rejected, std::move(detail));
     }
   }

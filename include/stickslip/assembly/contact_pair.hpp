@@ -225,7 +225,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if constexpr (with_friction)
         if (followed) {
           const Real turn = turn_of_slide<dim>(way, node.sliding, node.bound, enforcement_.stick_stiffness(weight_[k]),
-                                               own_way(mesh, u, k).norm());
+                                               1e-3 * spacing_[k], own_way(mesh, u, k).norm());
           if (turn > summary_.turn) {
             summary_.turn = turn;
             turned_most_ = n;

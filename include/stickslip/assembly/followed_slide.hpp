@@ -99,13 +99,13 @@ FollowedSlide<dim> follow_slide(const Tool& tool, const rigid::PosesAlong<dim>& 
 }
 
 /// How far the way of a node departs from the slide that stands for it, over what is allowed (theory.md, eq. 4.25 and
-/// 4.26): above 1 the step must be shorter. `own` is the node's own way in space; where it is that of a node that rides
-/// on the tool, the tool tells nothing.
+/// 4.26): above 1 the step must be shorter. What departs by less than `finest` is let pass. `own` is the node's own way
+/// in space; where it is that of a node that rides on the tool, the tool tells nothing.
 template <int dim>
-Real turn_of_slide(const FollowedSlide<dim>& way, bool sliding, Real bound, Real stiffness, Real own) {
-  constexpr Real widest = 0.2, most_lost = 0.02, in_the_stick = 0.04;
+Real turn_of_slide(const FollowedSlide<dim>& way, bool sliding, Real bound, Real stiffness, Real finest, Real own) {
+  constexpr Real widest = 0.15, most_lost = 0.02, in_the_stick = 0.04;
   if (!(bound > 0)) return 0;
-  const Real unseen = in_the_stick * bound / stiffness;
+  const Real unseen = std::max(in_the_stick * bound / stiffness, finest);
   if (!sliding) return way.peak - bound > stiffness * std::max(unseen, 0.25 * own) ? 2 : 0;
   const Real size = way.slide.norm(), lost = way.length - size;
   if (lost <= std::max(unseen, 1e-12 * way.length) || way.length <= 0.25 * own) return 0;
