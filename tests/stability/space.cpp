@@ -635,7 +635,7 @@ const Hard spins(
 const Hard drills(
     "space: steps", "a plate that turns on the spot by whole turns a step, and in default steps",
     "Coulomb; QuasiCoulomb; Hex8",
-    "torque = sum of mu p r, slid distance = way, to 2 %: steps are cut to a sixteenth of a turn", [](Case& c) {
+    "torque = sum of mu p r, slid distance = way, to 2 %: steps of a twentieth of a turn or less", [](Case& c) {
       const Real mu = 0.3;
       for (const Bundle* b : {&coulomb(), &quasi()})
         for (const Index count : {0, 2}) {

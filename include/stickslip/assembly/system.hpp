@@ -257,6 +257,7 @@ class System {
   /// Sets out on a step from the converged displacements `from` at the time `begin` to the time `end`: tools that turn
   /// on the way are followed (theory.md, section 4.7).
   Trouble set_out(const Field& from, Real begin, Real end) requires with_contact {
+    const Stopwatch watch(timings.contact);
     Trouble trouble;
     for_each_friction([&](auto& pair) {
       if (!trouble) trouble = pair.set_out(body_.mesh(), from, begin, end);
