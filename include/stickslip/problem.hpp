@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace stickslip {
 
@@ -73,6 +74,10 @@ class March : public Course {
   bool feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact);
   void retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model>;
 
+  // Whether Newton's method went astray, at forces that could all be evaluated.
+  static bool finds_no_balance(Cause cause) {
+    return cause == Cause::singular_matrix || cause == Cause::stalled || cause == Cause::not_converged;
+  }
   void require_own() const {
     if (state_ != problem_.revision_)
       throw std::invalid_argument(
@@ -212,8 +217,7 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
 /// at which they slide (theory.md, section 6.4).
 template <class Model>
 void March<Model>::retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model> {
-  const Cause cause = newton.trouble.cause;
-  if (cause != Cause::singular_matrix && cause != Cause::stalled && cause != Cause::not_converged) return;
+  if (!finds_no_balance(newton.trouble.cause)) return;
   System<Mechanical>& system = *problem_.system_;
   u = problem_.u_;
   NewtonReport again{.trouble = system.impose(time, u)};
@@ -263,7 +267,9 @@ void March<Model>::advance() {
     const Real time = now_.control.next();
     const Real dt = time - problem_.time_;
     const bool guessed = problem_.guess(dt, u);
-    const Trouble trouble = system.impose(time, u);
+    Trouble trouble = system.impose(time, u);
+    if constexpr (has_friction<Model>)
+      if (!trouble) trouble = system.set_out(problem_.u_, problem_.time_, time);
     NewtonReport newton;
     if (trouble) {
       newton.trouble = trouble;
@@ -274,12 +280,20 @@ void March<Model>::advance() {
       u = problem_.u_;
       newton = newton_.solve(system, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
     }
-    Index passes = 1;
     if constexpr (has_friction<Model> && !has_inertia<Model>)
       if (newton.trouble) retry(u, time, dt, newton);
+    if constexpr (has_friction<Model>)
+      if (!newton.trouble && system.must_follow(problem_.u_, u)) {
+        const Index unfollowed = newton.iterations;
+        newton = newton_.resume(system, u, time, dt);
+        newton.iterations += unfollowed;
+      }
+    Index passes = 1;
     const Index first_iterations = newton.iterations;
     if constexpr (takes_passes<Model>())
       if (!newton.trouble) passes = pass_again(u, time, dt, newton);
+    if constexpr (has_friction<Model>)
+      if (!newton.trouble) newton.trouble = system.slide_turned();
     if constexpr (has_contact<Model>)
       if (!newton.trouble && options_.watch_ways)
         newton.trouble = system.passed_through(problem_.u_, u, problem_.time_, time);
@@ -333,18 +347,20 @@ void March<Model>::advance() {
     if (now_.control.too_small()) {
       std::string detail;
       if (newton.trouble.cause == Cause::contradicting_supports) detail = system.contradiction(time);
+      if constexpr (has_friction<Model>)
+        if (newton.trouble.cause == Cause::slide_turns) detail = system.turned_too_far();
       if constexpr (!has_inertia<Model>) {
         [[maybe_unused]] std::string sliding;
         if constexpr (has_friction<Model>) sliding = system.sliding_contacts();
         if (!system.evaluate(problem_.u_, problem_.time_, dt))
           if (const Index part = system.free_part(problem_.u_); part >= 0) return unsupported(part, dt, rejected);
         if constexpr (has_friction<Model>)
-          if (system.held_by_friction(problem_.u_, problem_.time_)) {
+          if (finds_no_balance(newton.trouble.cause) && system.held_by_friction(problem_.u_, problem_.time_)) {
             newton.trouble = {Cause::slides, {}};
             detail = sliding.empty() ? system.sliding_contacts() : sliding;
           }
       }
-      return fail(newton.trouble, problem_.time_, dt, rejected, detail);
+      return fail(newton.trouble, problem_.time_, dt, rejected, std::move(detail));
     }
   }
 }

@@ -136,7 +136,18 @@ Contact<Model, Friction> roller(const std::string& side, Real lost_from) {
     x[sideways ? 0 : 1] = -0.25 * std::min(t, 0.3);
     x[sideways ? 1 : 0] = 0.4 * std::max(0.0, t - 0.3);
     if (t > lost_from) x[0] = std::numeric_limits<Real>::quiet_NaN();
-    return x;
+    // The one in the middle of the top turns besides: the way of its surface is followed.
+    rigid::Pose<dim> pose;
+    if (!sideways && (dim == 2 || std::same_as<Friction, Coulomb>)) {
+      const Real angle = 5 * std::max(0.0, t - 0.3);
+      Vec<Real, dim> centre = Vec<Real, dim>::Zero();
+      centre.template head<2>() << (dim == 2 ? 2 : 1), (dim == 2 ? 4.02 : 2.02);
+      pose.rotation.template topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle),
+          std::cos(angle);
+      x += centre - pose.rotation * centre;
+    }
+    pose.translation = x;
+    return pose;
   };
   contact.enforcement.normal = 5;
   contact.enforcement.tangential = 1;

@@ -5,6 +5,7 @@
 #include <stickslip/assembly/contact_kernel.hpp>
 #include <stickslip/assembly/contact_record.hpp>
 #include <stickslip/assembly/facet.hpp>
+#include <stickslip/assembly/followed_slide.hpp>
 #include <stickslip/assembly/node_couplings.hpp>
 #include <stickslip/assembly/sparse_matrix.hpp>
 #include <stickslip/base/brief.hpp>
@@ -90,7 +91,6 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       own_.change = own_.pressure;
     }
     spacing_ = spacings(mesh, this->side_);
-    poses_.reserve(5);  // of a tool that does not turn
     weigh(mesh, kinematics);
   }
 
@@ -207,6 +207,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     if (const Trouble t = stretched(pose)) return t;
     trial_summary_ = {};
     if constexpr (lags) dt_ = dt;
+    [[maybe_unused]] bool followed = false;
+    if constexpr (with_friction) followed = follows_ && time == along_.end();
     trial_force_.setZero();
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const Index n = nodes_[k];
@@ -218,6 +220,15 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if constexpr (with_friction) slipped = moved<Real, dim>(tool_, at.place, old.friction.place);
       const Real settled = settled_pressure(enforcement_, weight_[k], at, old);
       const Real pressure = excess ? pressures_[k].value : settled;
+      [[maybe_unused]] FollowedSlide<dim> way;
+      if constexpr (with_friction)
+        if (followed && (settled > 0 || pressure > 0)) {
+          way = follow_slide<dim>(tool_, along_, departures_[k], own_way(mesh, u, k), at, old.friction.traction,
+                                  old.friction.place, enforcement_.stick_stiffness(weight_[k]));
+          if (!way.finite) return {Cause::not_finite, {Place::Kind::contact_node, n}};
+          slipped = way.slide;
+          old.friction.traction = way.traction;
+        }
       if constexpr (with_friction && dim == 3)
         if (settled > 0 || pressure > 0) add_curvature_of_place(tool_, on_tool(mesh, u, pose, n), at);
       const auto node = contact_node<Real, dim>(enforcement_, friction_, Friction{}, weight_[k], at, slipped, old,
@@ -249,6 +260,15 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         trial_summary_.max_slip = std::max(trial_summary_.max_slip, state.slip);
       }
       if (!node.touching) continue;
+      if constexpr (with_friction)
+        if (followed) {
+          const Real turn = turn_of_slide<dim>(way, node.sliding, node.bound, enforcement_.stick_stiffness(weight_[k]),
+                                               1e-3 * spacing_[k], own_way(mesh, u, k).norm());
+          if (turn > summary_.turn) {
+            summary_.turn = turn;
+            turned_most_ = n;
+          }
+        }
       state.force = product(pose.rotation, node.force);
       Mat<Real, dim> whole = node.stiffness;
       add(whole, node.coupling);
@@ -284,17 +304,56 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     return {};
   }
 
+  /// Sets out on a step from the displacements `from` at the time `begin` to the time `end`: over one in which the tool
+  /// turns, or moves to and fro, the nodes' places on it are followed (theory.md, section 4.7).
+  template <class MeshType>
+  Trouble set_out(const MeshType& mesh, const Field& from, Real begin, Real end) requires with_friction {
+    along_.take(motion_, begin, end);
+    follows_ = along_.turns();
+    for (std::size_t i = 0; i < along_.size(); ++i)
+      if (const Trouble t = stretched(along_[i].pose)) return t;
+    if (!along_.resolved()) return {Cause::slide_turns, {Place::Kind::contact_node, nodes_[0]}};
+    if (follows_) depart(mesh, from);
+    return {};
+  }
+  /// Whether the places of the step must be followed though they were not: the tool, which moves on straight, has
+  /// turned its normal under a node that slides by more than 0.4 rad to the displacements `to` of the last assembly.
+  /// From now on they are.
+  template <class MeshType>
+  bool must_follow(const MeshType& mesh, const Field& from, const Field& to) requires(with_friction&& dim == 3) {
+    if (follows_) return false;
+    const rigid::Pose<dim>&first = along_[0].pose, last = along_[along_.size() - 1].pose;
+    for (std::size_t k = 0; k < nodes_.size() && !follows_; ++k) {
+      if (!trial_states_[k].sliding) continue;
+      const Vec<Real, dim> before = distance_to<Real, dim>(tool_, on_tool(mesh, from, first, nodes_[k])).normal,
+                           now = distance_to<Real, dim>(tool_, on_tool(mesh, to, last, nodes_[k])).normal;
+      follows_ = contraction(before, now) < 0.92;
+    }
+    if (!follows_) return false;
+    along_.divide(motion_, 16);
+    depart(mesh, from);
+    return true;
+  }
+  /// Whether this pair is what the step cannot follow.
+  bool turned_too_far() const requires with_friction { return !along_.resolved() || summary_.turn > 1; }
+  /// Refuses a step over which a node's slide has turned by more than the step can tell (theory.md, eq. 4.25).
+  Trouble slide_turned() const requires with_friction {
+    if (!turned_too_far()) return {};
+    return {Cause::slide_turns, {Place::Kind::contact_node, turned_most_}};
+  }
+
   /// Whether a node has gone through the tool on its way from the converged displacements `from` at the time `begin` to
   /// those of the last assembly, `to` at the time `end` (theory.md, eq. 4.19-4.21).
   template <class MeshType>
   Trouble passed_through(const MeshType& mesh, const Field& from, const Field& to, Real begin, Real end) {
-    rigid::poses_along(motion_, begin, end, poses_);
+    if (!along_.are_of(begin, end)) along_.take(motion_, begin, end);
+    if (!along_.resolved()) return {Cause::slide_turns, {Place::Kind::contact_node, nodes_[0]}};
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const Index n = nodes_[k];
       const Vec<Real, dim> u = at_node<dim>(from, n);
       Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(n)];
       add(x, u);
-      rigid::Passage<dim, Tool> passed(tool_, poses_, 0.1 * spacing_[k]);
+      rigid::Passage<dim, Tool> passed(tool_, along_, 0.1 * spacing_[k]);
       const Cause cause =
           passed(x, minus(at_node<dim>(to, n), u), states_[k].gap, trial_states_[k].gap, trial_states_[k].touching);
       if (cause != Cause::none) return {cause, {Place::Kind::contact_node, n}};
@@ -439,6 +498,21 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(node)];
     add(x, at_node<dim>(u, node));
     return pose.on_tool(x);
+  }
+  // Where a step that is followed departs from, and by how much a node has gone since.
+  template <class MeshType>
+  void depart(const MeshType& mesh, const Field& from) requires with_friction {
+    departures_.resize(nodes_.size());
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      departures_[k] = {.x = mesh.nodes[static_cast<std::size_t>(nodes_[k])], .touching = states_[k].touching};
+      add(departures_[k].x, at_node<dim>(from, nodes_[k]));
+    }
+  }
+  template <class MeshType>
+  Vec<Real, dim> own_way(const MeshType& mesh, const Field& u, std::size_t k) const requires with_friction {
+    Vec<Real, dim> x = mesh.nodes[static_cast<std::size_t>(nodes_[k])];
+    add(x, at_node<dim>(u, nodes_[k]));
+    return minus(x, departures_[k].x);
   }
   static Mat<Real, dim> turned_into_space(const rigid::Pose<dim>& pose, const Mat<Real, dim>& stiffness) {
     return product_transposed(product(pose.rotation, stiffness), pose.rotation);
@@ -623,7 +697,11 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;
   [[no_unique_address]] Only<passes || lags, std::vector<Memory>, Friction> renewed_;  // where the present pass starts
   std::vector<Real> spacing_;
-  std::vector<rigid::Pose<dim>> poses_;  // along a step
+  rigid::PosesAlong<dim> along_;  // a step
+  [[no_unique_address]] Only<with_friction, std::vector<Departure<dim>>, struct DepartureTag>
+      departures_;                                                                  // of a step that is followed
+  [[no_unique_address]] Only<with_friction, bool, struct FollowTag> follows_{};     // whether this one is
+  [[no_unique_address]] Only<with_friction, Index, struct TurnTag> turned_most_{};  // the node of summary_.turn
   [[no_unique_address]] Only<iterates, Relaxation, Memory> relaxation_;
   [[no_unique_address]] Only<is_augmented<Enforcement>, Real, struct StiffenedTag>
       stiffened_;                                         // by how much in this step

@@ -23,6 +23,7 @@ struct ContactSummary {
   Real dissipated = 0;  ///< by friction in the step [energy]
   Real missed = 0;      ///< what friction would dissipate besides in the step if its bounds did not lag [energy]
   Real stored = 0;      ///< by penetration: the nodes' changes in the step, their magnitudes summed [energy]
+  Real turn = 0;        ///< of the nodes' slides within the step over what is allowed (theory.md, eq. 4.25) [-]
 
   void merge(const ContactSummary& other) {
     touching += other.touching;
@@ -35,6 +36,7 @@ struct ContactSummary {
     dissipated += other.dissipated;
     missed += other.missed;
     stored += other.stored;
+    turn = std::max(turn, other.turn);
   }
 };
 

@@ -320,6 +320,41 @@ class System {
     return names.empty() ? named([](const ContactSummary&) { return true; }) : names;
   }
 
+  /// Sets out on a step from the converged displacements `from` at the time `begin` to the time `end`: tools that turn
+  /// on the way are followed (theory.md, section 4.7).
+  Trouble set_out(const Field& from, Real begin, Real end) requires with_contact {
+    const Stopwatch watch(timings.contact);
+    Trouble trouble;
+    for_each_friction([&](auto& pair) {
+      if (!trouble) trouble = pair.set_out(body_.mesh(), from, begin, end);
+    });
+    return trouble;
+  }
+  /// Whether the last evaluation, at the displacements `to`, shows a tool that must be followed and was not.
+  bool must_follow([[maybe_unused]] const Field& from, [[maybe_unused]] const Field& to) requires with_contact {
+    bool must = false;
+    if constexpr (dim == 3)
+      for_each_friction([&](auto& pair) { must = pair.must_follow(body_.mesh(), from, to) || must; });
+    return must;
+  }
+  /// Whether a node's slide has turned within the step by more than the step can tell.
+  Trouble slide_turned() requires with_contact {
+    Trouble trouble;
+    for_each_friction([&](auto& pair) {
+      if (!trouble) trouble = pair.slide_turned();
+    });
+    return trouble;
+  }
+
+  /// Names the contacts that such a step was refused for.
+  std::string turned_too_far() requires with_contact {
+    std::string names;
+    for_each_friction([&](auto& pair) {
+      if (pair.turned_too_far()) names += (names.empty() ? "contact " : ", ") + pair.name();
+    });
+    return names;
+  }
+
   /// Whether a contact node has gone through its tool between the converged displacements `from` at the time `begin`
   /// and the last evaluation, `to` at the time `end`.
   Trouble passed_through(const Field& from, const Field& to, Real begin, Real end) requires with_contact {
@@ -375,6 +410,13 @@ class System {
   void for_each_pass(Visit&& visit) {
     for_each_contact(pairs_, [&](auto& pair) {
       if constexpr (std::remove_reference_t<decltype(pair)>::passes) visit(pair);
+    });
+  }
+
+  template <class Visit>
+  void for_each_friction(Visit&& visit) {
+    for_each_contact(pairs_, [&](auto& pair) {
+      if constexpr (std::remove_reference_t<decltype(pair)>::with_friction) visit(pair);
     });
   }
 

@@ -23,6 +23,7 @@ enum class Cause {
   not_converged,           ///< the iteration limit was reached
   passes_failed,           ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
   lag_feeds_back,          ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
+  slide_turns,             ///< a tool turned, or moved to and fro, by more than a node's slide over the step can follow
   tunnelled,               ///< a node's way over the step led through a tool, whose force it never felt
   stalled,                 ///< no step along the Newton direction lowers the residual
 };
@@ -57,6 +58,8 @@ inline const char* describe(Cause cause) {
     case Cause::lag_feeds_back:
       return "the friction bound's lag feeds back on the pressure and grows from step to step, whatever their "
              "size; take the current pressure";
+    case Cause::slide_turns:
+      return "a tool turned, or moved to and fro, within the step by more than a node's slide can follow";
     case Cause::tunnelled:
       return "a node went through a tool within the step";
     case Cause::stalled:

@@ -2,30 +2,14 @@
 #pragma once
 
 #include <stickslip/base/outcome.hpp>
-#include <stickslip/geometry/pose.hpp>
+#include <stickslip/geometry/poses_along.hpp>
 #include <stickslip/geometry/surface_point.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace stickslip::rigid {
-
-/// The poses of a tool at equal times along a step: five, or so many that it turns by no more than a tenth of a radian
-/// from one to the next (at most 256 steps of it). A tool that turns by whole turns between two of five is not seen to.
-template <int dim>
-void poses_along(const Motion<dim>& motion, Real begin, Real end, std::vector<Pose<dim>>& poses) {
-  for (int parts = 4;; parts *= 2) {
-    poses.clear();
-    Real turn = 0;
-    for (int i = 0; i <= parts; ++i) {
-      poses.push_back(motion.at(i == parts ? end : begin + (end - begin) * i / parts));
-      if (i > 0) turn = std::max(turn, (poses.back().rotation - poses[poses.size() - 2].rotation).norm());
-    }
-    if (!(turn > 0.1 * std::sqrt(2.0)) || parts >= 256) return;
-  }
-}
 
 /// Whether a point has gone through a tool on its way over a step (theory.md, eq. 4.19-4.21).
 template <int dim, class Tool>
@@ -35,8 +19,7 @@ class Passage {
 
   /// Looks in the tool's frame, at the poses along the step, for a place deeper inside the tool than the gaps at both
   /// ends. What lies less than `finest` below that may be missed.
-  Passage(const Tool& tool, const std::vector<Pose<dim>>& poses, Real finest)
-      : tool_(tool), poses_(poses), finest_(finest) {}
+  Passage(const Tool& tool, const PosesAlong<dim>& poses, Real finest) : tool_(tool), poses_(poses), finest_(finest) {}
 
   /// From x by u, where the gaps are `first` and `last`. A point that `touches` at the end may have gone around a
   /// convex tool: around, not through.
@@ -72,7 +55,7 @@ class Passage {
 
  private:
   // Where the point is at a pose, in the tool's frame.
-  V at(std::size_t i) const { return poses_[i].on_tool(x_ + Real(i) / Real(poses_.size() - 1) * u_); }
+  V at(std::size_t i) const { return poses_[i].pose.on_tool(x_ + poses_[i].share * u_); }
 
   // The gap at a place deeper than the depth on the straight way from a to b, where the gaps are gap_a and gap_b, or
   // the smaller of these; not a number where the tool has none.
@@ -99,7 +82,7 @@ class Passage {
   }
 
   const Tool& tool_;
-  const std::vector<Pose<dim>>& poses_;
+  const PosesAlong<dim>& poses_;
   Real finest_, depth_ = 0;  // [length]
   V x_, u_;
 };

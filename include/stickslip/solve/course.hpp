@@ -94,6 +94,8 @@ class Course {
     Real excess = 0;
     if (options_.lag_tolerance > 0) excess = step.errors.lag / options_.lag_tolerance;
     if (options_.step_tolerance > 0) excess = std::max(excess, step.errors.time / options_.step_tolerance);
+    // Slides are to turn by two thirds of what is allowed; a quarter of it says nothing against longer steps.
+    if (step.contact.turn > 0.25) excess = std::max(excess, 1.5 * step.contact.turn);
     now_.control.accept(step.time, first_iterations, error, excess);
   }
   // Books a step that is done.

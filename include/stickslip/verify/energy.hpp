@@ -59,7 +59,7 @@ class EnergyLedger {
       reaction[c] = system.dofs().equation(c) == Dofs::constrained ? system.reaction(c) : 0.0;
     Real external = has_inertia<Model> ? du.dot(reaction) : du.dot(mean(reaction_, reaction));
     external += du.dot(mean(external_, system.external()));
-    const Real by_tools = tool_work(step.time - step.dt, step.time, before);
+    const Real by_tools = tool_work(du, step.time - step.dt, step.time, before);
     external += by_tools;
 
     // What the body's forces did, against what its energies say they did.
@@ -124,25 +124,42 @@ class EnergyLedger {
     if constexpr (has_inertia<Model>) energies_.kinetic = problem_.inertia().kinetic_energy();
   }
 
-  // Work that the moving tools do on the body from time t0 to t1.
-  Real tool_work([[maybe_unused]] Real t0, [[maybe_unused]] Real t1, [[maybe_unused]] Real before) const {
+  // Work that the moving tools do on the body, which has moved by du, from time t0 to t1.
+  Real tool_work([[maybe_unused]] const Field& du, [[maybe_unused]] Real t0, [[maybe_unused]] Real t1,
+                 [[maybe_unused]] Real before) const {
     Real work = 0;
     if constexpr (has_contact<Model>) {
       std::size_t p = 0;
+      rigid::PosesAlong<dim> along;
       problem_.visit_contacts([&](const auto& pair) {
-        const rigid::Pose<dim> from = pair.motion().at(t0), to = pair.motion().at(t1);
+        along.take(pair.motion(), t0, t1);
         for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
           const Index n = pair.nodes()[k];
           const Vec<Real, dim> x = problem_.body().mesh().nodes[static_cast<std::size_t>(n)] + problem_.displacement(n);
-          const Vec<Real, dim> on_tool = to.on_tool(x);
-          const Vec<Real, dim> moved = to.in_space(on_tool) - from.in_space(on_tool);
+          const Vec<Real, dim> own = at_node<dim>(du, n);
           Vec<Real, dim> force = (1 - before) * pair.states()[k].force;
           if (!forces_.empty()) force += before * forces_[p++].force;
-          work -= force.dot(moved);
+          work -=
+              force.dot(along.turns() ? carried(along, x, own) : moved(along[0].pose, along[along.size() - 1].pose, x));
         }
       });
     }
     return work;
+  }
+  // Way of the point of a tool that is at x in the end.
+  static Vec<Real, dim> moved(const rigid::Pose<dim>& from, const rigid::Pose<dim>& to, const Vec<Real, dim>& x) {
+    return x - from.in_space(to.on_tool(x));
+  }
+  // Ways of the points of a turning tool that a node comes to on its own way to x, one after the other: the mean of
+  // those that begin and that end there, which lie on either side of the tangent (theory.md, eq. 4.27).
+  static Vec<Real, dim> carried(const rigid::PosesAlong<dim>& along, const Vec<Real, dim>& x,
+                                const Vec<Real, dim>& own) {
+    Vec<Real, dim> way = Vec<Real, dim>::Zero();
+    for (std::size_t i = 1; i < along.size(); ++i) {
+      const Vec<Real, dim> here = x - (1 - along[i - 1].share) * own, next = x - (1 - along[i].share) * own;
+      way += 0.5 * (moved(along[i - 1].pose, along[i].pose, next) - moved(along[i].pose, along[i - 1].pose, here));
+    }
+    return way;
   }
 
   const Scene<MechanicsOf<Model>>& problem_;
