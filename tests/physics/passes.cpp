@@ -146,14 +146,21 @@ TEST_CASE("passes that are given up leave no trace") {
                                       .friction = {.mu = 0.3},
                                       .enforcement = {.normal = 0.3, .tangential = 0.1}}}}};
     problem.hold("top", 0).hold("top", 1);
-    CHECK(bool(problem.march({.end = 0.5, .steps = 2, .tolerance = 1e-10}).finish()));
-    if (troubled) {
-      auto march = problem.march(
-          {.end = 1, .steps = 1, .smallest = 0.1, .tolerance = 1e-10, .pass_tolerance = 1e-12, .max_passes = 5});
+    const auto give_up = [&] {
+      const Real now = problem.time();
+      auto march = problem.march({.end = now + 0.5,
+                                  .steps = 1,
+                                  .smallest = 0.1,
+                                  .tolerance = 1e-10,
+                                  .pass_tolerance = 1e-12,
+                                  .max_passes = 5});
       CHECK(march.finish().trouble.cause == Cause::passes_failed);
       CHECK(march.report().rejected_steps > 1);
-      CHECK(problem.time() == 0.5);
-    }
+      CHECK(problem.time() == now);
+    };
+    if (troubled) give_up();
+    CHECK(bool(problem.march({.end = 0.5, .steps = 2, .tolerance = 1e-10}).finish()));
+    if (troubled) give_up();
     Index passes = 0;
     auto rest = problem.march({.end = 1, .steps = 2, .tolerance = 1e-10});
     for (const StepReport& step : rest) passes += step.passes;
