@@ -46,4 +46,16 @@ TEST_CASE("the mean dilatation does not lock where the plain element does") {
   CHECK(deflection<Plain>(16, 0.3) == doctest::Approx(deflection<Mean>(16, 0.3)).epsilon(0.02));
 }
 
+TEST_CASE("the guess of a step goes with its size") {
+  // Pressed so little that the path is straight, without variables of its own: where the first step leads, the guesses
+  // of all others are right.
+  using M = Lone<EigenLdlt, Hencky, PlaneStrain, Plain>;
+  Problem<M> p({.body = mesh::rectangle({.cells = {3, 3}}), .material = material<Hencky>()});
+  p.hold("bottom", 0).hold("bottom", 1).hold("top", 0).drive("top", 1, [](Real t) { return -1e-7 * t; });
+  auto march = p.march({.end = 1, .tolerance = 1e-5, .stops = {0.1, 0.4, 0.45}});
+  for (const StepReport& step : march) CHECK((step.iterations > 0) == (step.number == 1));
+  CHECK(bool(march.outcome()));
+  CHECK(march.report().steps > 5);
+}
+
 }  // namespace locking

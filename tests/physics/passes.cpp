@@ -170,6 +170,46 @@ TEST_CASE("a step that is refused after its passes leaves neither multipliers no
   CHECK(refused->displacement() == fresh->displacement());
 }
 
+TEST_CASE("passes that are given up leave no trace") {
+  // Bounds and multipliers, so soft that they are stiffened within a step.
+  using M = With<EigenLdlt, LagIteratedCoulomb, AugmentedLagrangian>;
+  const auto run = [](bool troubled) {
+    Problem<M> problem{{.body = mesh::rectangle({.size = {10, 5}, .cells = {4, 2}}),
+                        .material = material<Hencky>(),
+                        .contacts = {{.side = "bottom",
+                                      .tool = rigid::line({0, 0}, {1, 0}),
+                                      .motion = [](Real t) { return V(t, 0.1 * t); },
+                                      .friction = {.mu = 0.3},
+                                      .enforcement = {.normal = 0.3, .tangential = 0.1}}}}};
+    problem.hold("top", 0).hold("top", 1);
+    const auto give_up = [&] {
+      const Real now = problem.time();
+      auto march = problem.march({.end = now + 0.5,
+                                  .steps = 1,
+                                  .smallest = 0.1,
+                                  .tolerance = 1e-10,
+                                  .pass_tolerance = 1e-12,
+                                  .max_passes = 5});
+      CHECK(march.finish().trouble.cause == Cause::passes_failed);
+      CHECK(march.report().rejected_steps > 1);
+      CHECK(problem.time() == now);
+    };
+    if (troubled) give_up();
+    CHECK(bool(problem.march({.end = 0.5, .steps = 2, .tolerance = 1e-10}).finish()));
+    if (troubled) give_up();
+    Index passes = 0;
+    auto rest = problem.march({.end = 1, .steps = 2, .tolerance = 1e-10});
+    for (const StepReport& step : rest) passes += step.passes;
+    CHECK(bool(rest.outcome()));
+    return std::tuple{problem.displacement(), problem.contact_force("bottom"), passes};
+  };
+  const auto [u, force, passes] = run(false);
+  const auto [again_u, again_force, again_passes] = run(true);
+  CHECK(again_u == u);  // to the bit
+  CHECK(again_force == force);
+  CHECK(again_passes == passes);
+}
+
 struct Mixed : With<EigenLu, PerContact<Coulomb, Frictionless>, Penalty> {};
 
 TEST_CASE("a law for each kind of contact: the same answers as alone, and no memory where there is none") {

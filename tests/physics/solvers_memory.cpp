@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-// A factor that memory does not hold is told as that, not as a singular matrix.
+// What a factor takes of memory is told, and that it does not fit is not told as a singular matrix.
 #include "solvers.hpp"
 
+#include <stickslip/linear_solver/banded.hpp>
 #include <stickslip/linear_solver/cholmod.hpp>
+#include <stickslip/linear_solver/eigen_ldlt.hpp>
+#include <stickslip/linear_solver/eigen_lu.hpp>
 #include <stickslip/linear_solver/mumps.hpp>
 #include <stickslip/linear_solver/umfpack.hpp>
 
@@ -86,5 +89,37 @@ TEST_CASE_TEMPLATE("a factor that does not fit", Solver, Cholmod, Umfpack, Mumps
   CHECK(factorized<Solver>(36, rlim_t(1) << 26) == no_memory);
 }
 #endif
+
+// What the factor of a chain of n springs takes: its triangles have 2 n - 1 entries each, in any good order.
+template <class Solver>
+std::size_t bytes_of_chain(Index n) {
+  Matrix m{{0}, {}, {}, Symmetry::symmetric};
+  for (Index i = 0; i < n; ++i) {
+    m.row.push_back(i);
+    m.values.push_back(2.1);
+    if (i + 1 < n) {
+      m.row.push_back(i + 1);
+      m.values.push_back(-1);
+    }
+    m.start.push_back(static_cast<Index>(m.row.size()));
+  }
+  const Matrix chain = stored<Solver>(m);
+  Solver solver;
+  solver.analyze(chain.view());
+  CHECK(solver.factorize(chain.view()) == Factorization::done);
+  return solver.factor_bytes();
+}
+TEST_CASE_TEMPLATE("a factor tells its memory", Solver, EigenLdlt, EigenLu, Cholmod, Umfpack, MumpsLdlt, MumpsLu) {
+  const std::size_t one = bytes_of_chain<Solver>(1000), ten = bytes_of_chain<Solver>(10000);
+  MESSAGE(one << " bytes of 1000 unknowns, " << ten << " of 10 000");
+  CHECK(one > 1999 * sizeof(Real));
+  CHECK(one < 20 * 1999 * sizeof(Real));
+  CHECK(ten > 5 * one);  // ten times as much, but for what goes by blocks
+  CHECK(ten < 20 * one);
+}
+TEST_CASE("a band tells its memory") {
+  CHECK(bytes_of_chain<BandedCholesky>(1000) == 2 * 1000 * sizeof(Real));
+  CHECK(bytes_of_chain<BandedLu>(1000) == 4 * 1000 * sizeof(Real) + 1000 * sizeof(int));  // one more, for pivoting
+}
 
 }  // namespace solvers_memory

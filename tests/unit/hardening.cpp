@@ -63,6 +63,32 @@ TEST_CASE("return map of linear hardening, perfect plasticity and softening") {
   const T F = shear(0.7);
   CHECK(von_mises(kirchhoff(perfect.respond(F, {}, 1).P, F)) == doctest::Approx(30).epsilon(1e-12));
 }
+// A law that counts how often it is asked.
+template <class Law>
+struct Counted : Law {
+  int* asked = nullptr;
+  template <class S>
+  FlowStress<S> flow(const S& p) const {
+    ++*asked;
+    return Law::flow(p);
+  }
+};
+TEST_CASE("the return map is Newton's: exact at once where the flow stress is linear, quick where it is steep") {
+  int asked = 0;
+  const auto work = [&](const auto& law, Real gamma) {
+    asked = 0;
+    const T F = shear(gamma);
+    CHECK(FiniteJ2<std::remove_cvref_t<decltype(law)>>{.young = 69e3, .poisson = 0.3, .hardening = law}
+              .respond(F, {}, 1)
+              .state.plastic_strain > 0);
+    return asked;
+  };
+  for (const Real gamma : {2e-3, 0.01, 0.1, 1.0, 20.0}) {
+    CAPTURE(gamma);
+    CHECK(work(Counted<LinearHardening>{{.yield = 30, .modulus = 260}, &asked}, gamma) == 3);  // start, end, once more
+    CHECK(work(Counted<PowerHardening>{{.strength = 589, .offset = 1e-4, .exponent = 0.216}, &asked}, 5 * gamma) < 20);
+  }
+}
 TEST_CASE("small steps of shear gather the plastic strain of the deformation") {
   const FiniteJ2<LinearHardening> material{.young = 69e3, .poisson = 0.3, .hardening = {.yield = 0.3, .modulus = 0}};
   FiniteJ2<LinearHardening>::State<Real, Planar> state;
