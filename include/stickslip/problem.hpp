@@ -144,6 +144,8 @@ Index March<Model>::pass_again([[maybe_unused]] Field& u, [[maybe_unused]] Real 
       }
       newton.iterations += again.iterations;
       newton.residual = again.residual;
+      newton.floor = again.floor;
+      newton.negative_pivots = again.negative_pivots >= 0 ? again.negative_pivots : newton.negative_pivots;
       newton.trouble = again.trouble;
       if (newton.trouble) break;
     }
@@ -204,6 +206,7 @@ void March<Model>::advance() {
   for (;;) {
     const Real time = now_.control.next();
     const Real dt = time - problem_.time_;
+    newton_.known_scale = now_.largest_force;
     const bool guessed = problem_.guess(dt, u);
     const Trouble trouble = system.impose(time, u);
     NewtonReport newton;
@@ -243,6 +246,7 @@ void March<Model>::advance() {
                       .iterations = newton.iterations,
                       .rejected = rejected,
                       .passes = passes,
+                      .negative_pivots = newton.negative_pivots,
                       .residual = newton.residual,
                       .contact = contact,
                       .local_error = local_error,
@@ -258,6 +262,13 @@ void March<Model>::advance() {
       if constexpr (has_lag<Model>())
         if (refusal == Cause::none && feeds_back(u, time, dt, contact)) refusal = Cause::lag_feeds_back;
       if (refusal != Cause::none) return fail({refusal, {}}, problem_.time_, dt, rejected + 1);
+      const Real force = system.force_scale();
+      const Real blurred = newton_.blurred(system, options_.tolerance * std::max(force, now_.largest_force));
+      if (digits_lost(force, newton.floor, blurred, time >= options_.end))
+        return fail({Cause::digits_lost, {}}, problem_.time_, dt, rejected + 1,
+                    digits_left(system.blame(u, now_.floor_by_gaps != 0)));
+      if (step.negative_pivots < 0 && newton.iterations == 0) step.negative_pivots = now_.negative_pivots;
+      watch_pivots(step.negative_pivots);
       accept(step, first_iterations, error);
       problem_.accept(u, time, dt);
       if (stress_ && now_.report.steps % options_.space_every == 0) {
@@ -273,7 +284,11 @@ void March<Model>::advance() {
       if constexpr (!has_inertia<Model>)
         if (!system.evaluate(problem_.u_, problem_.time_, dt) && system.moves_freely(problem_.u_))
           newton.trouble = {Cause::unsupported, {}};
-      return fail(newton.trouble, problem_.time_, dt, rejected);
+      std::string detail;
+      if (const Cause c = newton.trouble.cause;
+          c == Cause::singular_matrix || c == Cause::not_converged || c == Cause::stalled)
+        if (detail = system.blame(problem_.u_, false); !detail.empty()) newton.trouble = {Cause::digits_lost, {}};
+      return fail(newton.trouble, problem_.time_, dt, rejected, detail);
     }
   }
 }

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <list>
 #include <string>
 #include <vector>
@@ -65,7 +66,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         friction_(contact.friction),
         enforcement_(contact.enforcement),
         weight_(nodes_.size(), 0.0),
-        pressures_(nodes_.size()) {
+        pressures_(nodes_.size()),
+        blur_(nodes_.size(), 0.0) {
     if (tool_.empty()) this->refuse("the tool has no surface");
     if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
     if constexpr (with_friction)
@@ -163,6 +165,34 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       }
   }
   void move(Real length) { pressures_.move(length); }
+
+  /// Adds the forces that the round-off of the gaps would make at the stiffness of the penalty alone [force].
+  void add_blur(Field& forces) const {
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (trial_states_[k].touching) add_at_node(forces, nodes_[k], scaled(pressures_[k].slope, blur_[k]));
+  }
+  /// Square of the norm of the changes of the pressures, where the body yields to those forces by -du [force^2].
+  Real blurred(const Field& du) const {
+    Real square = 0;
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (trial_states_[k].touching)
+        square +=
+            std::pow(pressures_[k].slope.norm() * blur_[k] - pressures_[k].slope.dot(at_node<dim>(du, nodes_[k])), 2);
+    return square;
+  }
+  /// The largest stiffness of sticking at any node; 0 without friction [force / length].
+  Real stickiest() const {
+    Real largest = 0;
+    if constexpr (with_friction)
+      for (const Real w : weight_) largest = std::max(largest, enforcement_.stick_stiffness(w));
+    return largest;
+  }
+  /// The larger of the stiffnesses of contact and sticking at any node [force / length].
+  Real stiffest() const {
+    Real largest = stickiest();
+    for (const Real w : weight_) largest = std::max(largest, enforcement_.normal_force(Real(-1), w, {}).d_gap);
+    return largest;
+  }
   Real openness() const { return pressures_.openness(); }
 
   /// Adds contact forces and their tangent at the nodal displacements u and `time`. With `excess`, at the pressures of
@@ -220,6 +250,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if (excess) {
         pressures_[k].slope = product(pose.rotation, node.pressure.slope);
         pressures_[k].excess = product(pose.rotation, node.pressure.excess);
+        blur_[k] = blur(at_node<dim>(u, n), mesh.nodes[static_cast<std::size_t>(n)], pose, at);
+        pressures_[k].forget(4 * blur_[k] * pressures_[k].slope.norm());
         add_at_node(*excess, n, pressures_[k].excess);
         if constexpr (with_friction) add_at_node(*excess, n, product(pose.rotation, node.beyond));
       }
@@ -419,6 +451,14 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     }
   }
 
+  // Round-off of a gap [length]: that of the largest numbers that it is the difference of.
+  static Real blur(const Vec<Real, dim>& u, const Vec<Real, dim>& X, const rigid::Pose<dim>& pose,
+                   const SurfacePoint<Real, dim>& at) {
+    Real reach = std::max(X.norm() + u.norm(), pose.translation.norm());
+    if (const Real bend = at.hess_gap.norm(); bend > 0) reach = std::max(reach, 1 / bend);  // to the tool's centre
+    return std::numeric_limits<Real>::epsilon() * reach;
+  }
+
   const Memory& start_of_pass(std::size_t k) const requires remembers {
     if constexpr (passes || lags)
       return renewed_[k];
@@ -467,6 +507,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   std::vector<Real> weight_;
   [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
   StiffRelations<dim> pressures_;
+  std::vector<Real> blur_;  // of the gaps of touching nodes in the last assembly
   [[no_unique_address]] Only<with_friction, std::vector<Turning>, struct TurningTag> turning_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;

@@ -6,6 +6,8 @@
 #include <stickslip/policy/material.hpp>
 #include <stickslip/tensor/products.hpp>
 
+#include <cmath>
+
 namespace stickslip {
 
 /// The plain displacement element. It locks as the material becomes incompressible: use it for compressible elasticity
@@ -34,13 +36,18 @@ struct FullyIntegrated {
                                           const Material& material, const Vec<S, nodes * dim>& u,
                                           const std::array<State, points>& old, Real dt,
                                           ElementResult<S, nodes * dim, points, State>& out) {
+    using std::log1p;
     using Shape = typename Kinematics::Shape;
     out.residual.setZero();
     out.tangent.setZero();
     for (std::size_t p = 0; p < points; ++p) {
-      const Tensor<S, Shape> F = deformation_gradient(geometry[p], u);
-      if (!(value_of(determinant(F)) > 0)) return Cause::element_inverted;
-      const auto answer = material.respond(F, old[p], dt);
+      Deformation<S, Shape> deformation;
+      deformation.H = displacement_gradient(geometry[p], u);
+      deformation.F = plus_one(deformation.H);
+      const S growth = determinant_less_one(deformation.H);
+      if (!(value_of(growth) > -1)) return Cause::element_inverted;
+      deformation.log_J = log1p(growth);
+      const auto answer = answer_of(material, deformation, old[p], dt);
       if (answer.cause != Cause::none) return answer.cause;
       const S weight = S(geometry[p].weight);
       add(out.residual, pull_back(geometry[p], answer.P), weight);

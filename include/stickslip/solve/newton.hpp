@@ -6,10 +6,13 @@
 #include <stickslip/base/nothing.hpp>
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/policy/linear_solver.hpp>
+#include <stickslip/solve/factor_digits.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace stickslip {
@@ -28,7 +31,9 @@ struct NewtonReport {
   Index iterations = 0;  ///< linear solutions
   Index line_search_cuts = 0;
   Index indefinite_factorizations = 0;
-  Real residual = 0;  ///< last residual over force scale [-]
+  Real residual = 0;           ///< last residual over force scale [-]
+  Real floor = 0;              ///< the residual that is left, where round-off leaves more than the tolerance [force]
+  Index negative_pivots = -1;  ///< of the last factorisation; -1: none was made, or the solver does not tell
 };
 
 /// Counts of work that outlive a step. Without padding: it stands in restart files as it is.
@@ -50,6 +55,7 @@ class Newton {
 
   NewtonOptions options;
   WorkCounts counts;
+  Real known_scale = 0;  ///< the largest force scale that the run has had [force]
 
   /// Solves for the displacements u at `time`, from the guess that u holds. With `driven`, the first linear system
   /// carries those increments of the constrained components as well (a tangent predictor). On failure u is spoilt.
@@ -64,18 +70,38 @@ class Newton {
   NewtonReport resume(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
     NewtonReport report;
     prepare(system);
+    measured_ = false;
     if ((report.trouble = system.iterate(u, time, dt, driven))) return report;
     Index stalls = 0;
+    Real least = std::numeric_limits<Real>::infinity();  // residual that may be round-off
+    Index idle = 0;                                      // iterations that have not halved it
     for (;;) {
       const Real norm = system.residual_norm();
       const Real scale = system.force_scale();
       report.residual = scale > 0 ? norm / scale : 0;
-      if (!driven && (norm <= options.tolerance * scale || norm <= system.roundoff(u))) return report;
+      if (!driven) {
+        if (norm <= options.tolerance * scale) return report;
+        const Real bound = system.roundoff(u);
+        if (norm <= bound) {
+          if (system.only_moves(bound)) {
+            report.residual = 0;
+            return report;
+          }
+          // What round-off may leave is only a bound of what it does: the residual has to have stopped falling, unless
+          // it is small in view of what the run has seen.
+          const bool small = norm <= options.tolerance * known_scale;
+          if (small) report.residual = norm / known_scale;
+          idle = norm > 0.5 * least ? idle + 1 : 0;
+          least = std::min(least, norm);
+          if (!small && idle > 1) report.floor = norm;
+          if (small || report.floor > 0) return report;
+        }
+      }
       if (report.iterations == options.max_iterations) {
         report.trouble.cause = Cause::not_converged;
         return report;
       }
-      if ((report.trouble = direction(system))) return report;
+      if ((report.trouble = direction(system, report))) return report;
       ++report.iterations;
       change_.setZero();
       system.dofs().scatter_add(-1, step_, change_);
@@ -128,6 +154,24 @@ class Newton {
     }
   }
 
+  /// Norm of the changes that the round-off of the gaps makes of the pressures [force]; 0 where it is below `enough`
+  /// even if the body does not yield. It costs a factorisation elsewhere.
+  template <class System>
+  Real blurred(System& system, Real enough) {
+    if (!system.gaps_blur(change_, enough)) return 0;
+    if (step_.size() > 0) {
+      const Stopwatch watch(system.timings.factorization);
+      system.dofs().gather(change_, start_);  // the first of start_ serve as unknowns
+      change_.setZero();
+      ++counts.factorizations;
+      if (solver_.factorize(system.matrix()) == Factorization::failed || !probe(start_.data(), step_.data())) return 0;
+      system.dofs().scatter_add(1, step_, change_);
+    } else {
+      change_.setZero();
+    }
+    return system.blurred(change_);
+  }
+
   /// What the solver remembers from one system to the next and its solutions depend on, where it says so.
   template <class System>
   void serialize([[maybe_unused]] Archive& archive, [[maybe_unused]] System& system) {
@@ -147,12 +191,13 @@ class Newton {
     start_.setZero(system.dofs().components());
     change_ = start_;
     if constexpr (near_tangent) probes_.krylov.resize(system.dofs().unknowns());
+    if constexpr (is_direct<Solver>) digits_.resize(system.dofs().unknowns());
     analyzed_ = system.pattern_revision();
   }
 
   // step_ = K^-1 R.
   template <class System>
-  Trouble direction(System& system) {
+  Trouble direction(System& system, NewtonReport& report) {
     if (step_.size() == 0) return {};  // nothing to solve for; the stiff relations close all the same
     {
       const Stopwatch watch(system.timings.factorization);
@@ -162,7 +207,15 @@ class Newton {
       if (f == Factorization::failed) return {Cause::singular_matrix, {}};
       if constexpr (requires { solver_.factor_bytes(); })
         counts.factor_bytes = std::max(counts.factor_bytes, std::size_t(solver_.factor_bytes()));
+      if constexpr (requires { solver_.negative_pivots(); }) report.negative_pivots = Index(solver_.negative_pivots());
     }
+    if constexpr (is_direct<Solver>)
+      if (!std::exchange(measured_, true)) {
+        const Stopwatch watch(system.timings.solve);
+        const Real condition =
+            digits_.condition(system.matrix(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
+        if (condition > FactorDigits::limit) return {Cause::singular_matrix, {}};
+      }
     const Index corrections = corrections_so_far();
     const bool solved = substitute(system, system.residual(), step_);
     counts.corrections += corrections_so_far() - corrections;
@@ -170,6 +223,13 @@ class Newton {
     // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
     if (step_.lpNorm<Eigen::Infinity>() > 1e6 * system.extent()) return {Cause::singular_matrix, {}};
     return {};
+  }
+
+  bool probe(const Real* right_hand_side, Real* solution) {
+    if constexpr (requires { solver_.probe(right_hand_side, solution); })
+      return solver_.probe(right_hand_side, solution);
+    else
+      return solver_.solve(right_hand_side, solution);
   }
 
   template <class System>
@@ -230,6 +290,8 @@ class Newton {
     Field residual;
   };
   [[no_unique_address]] Only<near_tangent, Probes, Solver> probes_;
+  [[no_unique_address]] Only<is_direct<Solver>, FactorDigits, Newton> digits_;
+  bool measured_ = false;  // whether the matrix of this solution has been
   Index analyzed_ = 0;
 };
 
