@@ -144,7 +144,6 @@ Index March<Model>::pass_again([[maybe_unused]] Field& u, [[maybe_unused]] Real 
       }
       newton.iterations += again.iterations;
       newton.residual = again.residual;
-      newton.floor = again.floor;
       newton.negative_pivots = again.negative_pivots >= 0 ? again.negative_pivots : newton.negative_pivots;
       newton.trouble = again.trouble;
       if (newton.trouble) break;
@@ -262,11 +261,11 @@ void March<Model>::advance() {
       if constexpr (has_lag<Model>())
         if (refusal == Cause::none && feeds_back(u, time, dt, contact)) refusal = Cause::lag_feeds_back;
       if (refusal != Cause::none) return fail({refusal, {}}, problem_.time_, dt, rejected + 1);
-      const Real force = system.force_scale();
-      const Real blurred = newton_.blurred(system, options_.tolerance * std::max(force, now_.largest_force));
-      if (digits_lost(force, newton.floor, blurred, time >= options_.end))
+      const Real force = system.force_scale(), scale = std::max(force, now_.largest_force);
+      const Real left = newton.residual > 0 ? system.residual_norm() : 0;  // not of a body that only moves
+      if (digits_lost(scale, left, system.blurred(), time >= options_.end))
         return fail({Cause::digits_lost, {}}, problem_.time_, dt, rejected + 1,
-                    digits_left(system.blame(u, now_.floor_by_gaps != 0)));
+                    digits_left(system.blame(u, now_.floor_by_gaps != 0, now_.floor_by_gaps != 0 ? 1e8 : 1e3)));
       if (step.negative_pivots < 0 && newton.iterations == 0) step.negative_pivots = now_.negative_pivots;
       watch_pivots(step.negative_pivots);
       accept(step, first_iterations, error);
@@ -285,9 +284,12 @@ void March<Model>::advance() {
         if (!system.evaluate(problem_.u_, problem_.time_, dt) && system.moves_freely(problem_.u_))
           newton.trouble = {Cause::unsupported, {}};
       std::string detail;
-      if (const Cause c = newton.trouble.cause;
-          c == Cause::singular_matrix || c == Cause::not_converged || c == Cause::stalled)
-        if (detail = system.blame(problem_.u_, false); !detail.empty()) newton.trouble = {Cause::digits_lost, {}};
+      const Cause cause = newton.trouble.cause;
+      if (cause == Cause::singular_matrix || cause == Cause::not_converged || cause == Cause::stalled) {
+        detail = system.blame(problem_.u_, false, cause == Cause::singular_matrix ? 1e8 : drowned() ? 1e3 : 1e13);
+        if (drowned()) detail = digits_left(detail);
+        if (!detail.empty()) newton.trouble = {Cause::digits_lost, {}};
+      }
       return fail(newton.trouble, problem_.time_, dt, rejected, detail);
     }
   }

@@ -67,7 +67,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         enforcement_(contact.enforcement),
         weight_(nodes_.size(), 0.0),
         pressures_(nodes_.size()),
-        blur_(nodes_.size(), 0.0) {
+        blur_(nodes_.size(), 0.0),
+        stiffness_(nodes_.size(), 0.0) {
     if (tool_.empty()) this->refuse("the tool has no surface");
     if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
     if constexpr (with_friction)
@@ -166,18 +167,15 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   }
   void move(Real length) { pressures_.move(length); }
 
-  /// Adds the forces that the round-off of the gaps would make at the stiffness of the penalty alone [force].
-  void add_blur(Field& forces) const {
+  /// Square of the norm of what the round-off of the gaps makes of the pressures, where of the body's stiffness at a
+  /// node no more than that share answers [force^2].
+  Real blurred(Real share) const {
+    Real square = 0, softest = std::numeric_limits<Real>::infinity();
     for (std::size_t k = 0; k < nodes_.size(); ++k)
-      if (trial_states_[k].touching) add_at_node(forces, nodes_[k], scaled(pressures_[k].slope, blur_[k]));
-  }
-  /// Square of the norm of the changes of the pressures, where the body yields to those forces by -du [force^2].
-  Real blurred(const Field& du) const {
-    Real square = 0;
+      if (trial_states_[k].touching && stiffness_[k] > 0) softest = std::min(softest, stiffness_[k]);
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       if (trial_states_[k].touching)
-        square +=
-            std::pow(pressures_[k].slope.norm() * blur_[k] - pressures_[k].slope.dot(at_node<dim>(du, nodes_[k])), 2);
+        square += std::pow(std::min(pressures_[k].slope.norm(), share * softest) * blur_[k], 2);
     return square;
   }
   /// The largest stiffness of sticking at any node; 0 without friction [force / length].
@@ -252,6 +250,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         pressures_[k].excess = product(pose.rotation, node.pressure.excess);
         blur_[k] = blur(at_node<dim>(u, n), mesh.nodes[static_cast<std::size_t>(n)], pose, at);
         pressures_[k].forget(4 * blur_[k] * pressures_[k].slope.norm());
+        stiffness_[k] = matrix.template largest_diagonal<dim>(slots_[k]);  // of the body: contact is still to be added
         add_at_node(*excess, n, pressures_[k].excess);
         if constexpr (with_friction) add_at_node(*excess, n, product(pose.rotation, node.beyond));
       }
@@ -507,7 +506,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   std::vector<Real> weight_;
   [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
   StiffRelations<dim> pressures_;
-  std::vector<Real> blur_;  // of the gaps of touching nodes in the last assembly
+  std::vector<Real> blur_, stiffness_;  // of touching nodes in the last assembly: of their gaps, of the body there
   [[no_unique_address]] Only<with_friction, std::vector<Turning>, struct TurningTag> turning_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactPair> committed_;
   [[no_unique_address]] Only<remembers, std::vector<Memory>, ContactSummary> trial_;

@@ -221,11 +221,11 @@ class System {
   Real force_scale() const { return std::max({internal_.norm(), contact_.norm(), external_.norm()}); }
   /// Largest coordinate of the body as it was [length].
   Real extent() const { return extent_; }
-  /// Bound of the residual that round-off alone leaves: the body's largest stiffness times the largest displacement,
-  /// that of sticking times the extent of the coordinates (theory.md, eq. 6.2a).
+  /// Bound of the residual that round-off alone leaves: the largest stiffness of the body and of sticking times the
+  /// extent of the coordinates (theory.md, eq. 6.2a).
   Real roundoff(const Field& u) const {
     const Real moved = u.lpNorm<Eigen::Infinity>();
-    Real force = stiffness_ * (exact_strains ? moved : moved + extent_);
+    Real force = stiffness_ * (exact_strains && !with_contact ? moved : moved + extent_);
     if constexpr (with_contact) force += sticking_ * (moved + extent_);
     return 16 * std::numeric_limits<Real>::epsilon() * force * std::sqrt(Real(dofs_.unknowns()));
   }
@@ -236,27 +236,23 @@ class System {
       if (contact_summary().touching > 0) return false;
     return external_.isZero(0) && internal_.norm() <= roundoff;
   }
-  /// Makes `forces` those that the round-off of the gaps would make if the body did not yield; whether their norm is
-  /// more than `enough`.
-  bool gaps_blur(Field& forces, [[maybe_unused]] Real enough) const {
-    forces.setZero();
-    if constexpr (with_contact) {
-      for_each_contact(pairs_, [&](const auto& pair) { pair.add_blur(forces); });
-      return forces.norm() > enough;
-    }
-    return false;
-  }
-  /// Norm of what becomes of these where the body yields by -du: the changes of the pressures [force].
-  Real blurred([[maybe_unused]] const Field& du) const {
+  /// What the round-off of the gaps makes of the pressures, at the stiffness of the penalty or the body, whichever is
+  /// softer (theory.md, eq. 6.2d) [force].
+  Real blurred() const {
     Real square = 0;
-    if constexpr (with_contact) for_each_contact(pairs_, [&](const auto& pair) { square += pair.blurred(du); });
+    if constexpr (with_contact) {
+      Real share = 1;  // of the stiffness that a body shows whose volume may go aside
+      if constexpr (requires { body_.material().poisson; })
+        share = (1 - 2 * body_.material().poisson) / (1 - body_.material().poisson);
+      for_each_contact(pairs_, [&](const auto& pair) { square += pair.blurred(share); });
+    }
     return std::sqrt(square);
   }
-  /// What of the scene makes round-off of the forces, in words, if anything does; `by_gaps` says that it is that of the
-  /// gaps, which a stiff body answers. Spoils the last evaluation.
-  std::string blame(const Field& u, bool by_gaps) {
+  /// What of the scene makes round-off of the forces, in words: a stiffness more than `worst` times another one, if
+  /// there is any; with `by_gaps` else the coordinates, to whose round-off the body answers. Spoils the last
+  /// evaluation.
+  std::string blame(const Field& u, bool by_gaps, Real worst) {
     std::string words;
-    Real worst = 1e8;
     const auto accuse = [&](Real ratio, const std::string& text) {
       if (!(ratio > worst)) return;
       worst = ratio;

@@ -4,9 +4,8 @@
 #include <stickslip/element/gradient_operator.hpp>
 #include <stickslip/element/quad4.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/tensor/near_one.hpp>
 #include <stickslip/tensor/products.hpp>
-
-#include <cmath>
 
 namespace stickslip {
 
@@ -36,7 +35,6 @@ struct FullyIntegrated {
                                           const Material& material, const Vec<S, nodes * dim>& u,
                                           const std::array<State, points>& old, Real dt,
                                           ElementResult<S, nodes * dim, points, State>& out) {
-    using std::log1p;
     using Shape = typename Kinematics::Shape;
     out.residual.setZero();
     out.tangent.setZero();
@@ -46,7 +44,7 @@ struct FullyIntegrated {
       deformation.F = plus_one(deformation.H);
       const S growth = determinant_less_one(deformation.H);
       if (!(value_of(growth) > -1)) return Cause::element_inverted;
-      deformation.log_J = log1p(growth);
+      deformation.log_J = log_one_plus(growth);
       const auto answer = answer_of(material, deformation, old[p], dt);
       if (answer.cause != Cause::none) return answer.cause;
       const S weight = S(geometry[p].weight);

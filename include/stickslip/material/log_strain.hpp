@@ -3,6 +3,7 @@
 
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/tensor/near_one.hpp>
 #include <stickslip/tensor/products.hpp>
 #include <stickslip/tensor/spectral.hpp>
 
@@ -37,14 +38,13 @@ Vec<S, 3> log_strains(const Spectral<S, Shape>& b) {
 }
 
 /// b = F G F^T, G = 1 + D, by its principal values and directions, and the logarithmic strains with the digits that
-/// F - 1 = H has (theory.md, eq. 3.2a).
+/// F - 1 = H has (theory.md, eq. 3.3a).
 template <class S, class Shape>
 struct LogStrains {
   Spectral<S, Shape> b;
   Vec<S, 3> e;  ///< ln(b_A) / 2
 
   LogStrains(const Deformation<S, Shape>& deformation, const Tensor<S, Shape>* D) {
-    using std::log1p;
     const Tensor<S, Shape>& H = deformation.H;
     Tensor<S, Shape> less_one;  // b - 1 = H + H^T + H H^T + F D F^T
     less_one.v = product(H, transpose(H)).v;
@@ -58,7 +58,7 @@ struct LogStrains {
     if (largest < 0.1) {
       b = spectral(less_one);
       for (int A = 0; A < 3; ++A) {
-        e[A] = S(0.5) * log1p(b.values[A]);
+        e[A] = S(0.5) * log_one_plus(b.values[A]);
         b.values[A] += S(1);
       }
     } else {  // the digits are in b, and the smallest value keeps its own

@@ -35,7 +35,7 @@ class Course {
     WorkCounts work{};    // that of probes as well, which the report is told with the next step
     Warnings warnings{};
     Real largest_force = 0;  // scale of a converged state
-    Real floor = 0;          // force that round-off has left undecided, at most
+    Real floor = 0;          // force that was left of a converged state, at most
     Index floor_by_gaps = 0;
     Index negative_pivots = 0;  // as last told; a body free of load has none
 
@@ -119,16 +119,21 @@ class Course {
   void warn(const std::string& name, const std::string& subject, const std::string& text) {
     now_.warnings.add(name, subject, text, now_.report.steps + 1);
   }
-  // Books the forces of a converged state and what round-off left of them; whether it is more than the tolerance of the
-  // largest of them, in a run that ends with this step.
-  bool digits_lost(Real force, Real residual, Real of_gaps, bool ends) {
-    now_.largest_force = std::max(now_.largest_force, force);
-    if (std::max(residual, of_gaps) > now_.floor) {
-      now_.floor = std::max(residual, of_gaps);
+  // Books what is left of a converged state's forces, `residual` and what the gaps' round-off makes of them, and the
+  // largest `scale` so far; whether that is too much in a run that ends with this step (theory.md, eq. 6.2b).
+  bool digits_lost(Real scale, Real residual, Real of_gaps, bool ends) {
+    now_.largest_force = scale;
+    const Real left = std::max(residual, of_gaps);
+    if (left > now_.floor) {
+      now_.floor = left;
       now_.floor_by_gaps = of_gaps > residual ? 1 : 0;
     }
-    return ends && now_.floor > options_.tolerance * now_.largest_force;
+    if (left > options_.tolerance * scale) warn("digits_lost", "", digits_left({}));
+    return ends && drowned();
   }
+  // Whether of some converged state's forces more is left than the tolerance of the largest. Below 1e-7 the tolerance
+  // is an aim: sticking a million times stiffer than the body takes as much.
+  bool drowned() const { return now_.floor > std::max(options_.tolerance, 1e-7) * now_.largest_force; }
   // In words; `reason` may be empty.
   std::string digits_left(const std::string& reason) const {
     const auto digits = [](Real part) { return figure(std::max(0.0, -std::log10(part))); };

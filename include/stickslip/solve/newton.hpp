@@ -32,7 +32,6 @@ struct NewtonReport {
   Index line_search_cuts = 0;
   Index indefinite_factorizations = 0;
   Real residual = 0;           ///< last residual over force scale [-]
-  Real floor = 0;              ///< the residual that is left, where round-off leaves more than the tolerance [force]
   Index negative_pivots = -1;  ///< of the last factorisation; -1: none was made, or the solver does not tell
 };
 
@@ -62,6 +61,7 @@ class Newton {
   template <class System>
   NewtonReport solve(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
     system.begin_iteration();
+    measured_ = false;
     return resume(system, u, time, dt, driven);
   }
 
@@ -70,7 +70,6 @@ class Newton {
   NewtonReport resume(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
     NewtonReport report;
     prepare(system);
-    measured_ = false;
     if ((report.trouble = system.iterate(u, time, dt, driven))) return report;
     Index stalls = 0;
     Real least = std::numeric_limits<Real>::infinity();  // residual that may be round-off
@@ -81,10 +80,14 @@ class Newton {
       report.residual = scale > 0 ? norm / scale : 0;
       if (!driven) {
         if (norm <= options.tolerance * scale) return report;
+        if (norm <= 64 * std::numeric_limits<Real>::epsilon() * known_scale) {  // nothing beside what has been
+          report.residual = norm / known_scale;
+          return report;
+        }
         const Real bound = system.roundoff(u);
         if (norm <= bound) {
           if (system.only_moves(bound)) {
-            report.residual = 0;
+            report.residual = 0;  // of forces that are none
             return report;
           }
           // What round-off may leave is only a bound of what it does: the residual has to have stopped falling, unless
@@ -93,8 +96,7 @@ class Newton {
           if (small) report.residual = norm / known_scale;
           idle = norm > 0.5 * least ? idle + 1 : 0;
           least = std::min(least, norm);
-          if (!small && idle > 1) report.floor = norm;
-          if (small || report.floor > 0) return report;
+          if (small || idle > 1) return report;
         }
       }
       if (report.iterations == options.max_iterations) {
@@ -148,28 +150,15 @@ class Newton {
         go();
       }
       if (trouble || stalls > 1) {
+        const Real left = system.residual_norm();
+        if (!trouble && left <= system.roundoff(u)) {  // it has come to its floor
+          if (system.force_scale() > 0) report.residual = left / system.force_scale();
+          return report;
+        }
         report.trouble = trouble ? trouble : Trouble{Cause::stalled, {}};
         return report;
       }
     }
-  }
-
-  /// Norm of the changes that the round-off of the gaps makes of the pressures [force]; 0 where it is below `enough`
-  /// even if the body does not yield. It costs a factorisation elsewhere.
-  template <class System>
-  Real blurred(System& system, Real enough) {
-    if (!system.gaps_blur(change_, enough)) return 0;
-    if (step_.size() > 0) {
-      const Stopwatch watch(system.timings.factorization);
-      system.dofs().gather(change_, start_);  // the first of start_ serve as unknowns
-      change_.setZero();
-      ++counts.factorizations;
-      if (solver_.factorize(system.matrix()) == Factorization::failed || !probe(start_.data(), step_.data())) return 0;
-      system.dofs().scatter_add(1, step_, change_);
-    } else {
-      change_.setZero();
-    }
-    return system.blurred(change_);
   }
 
   /// What the solver remembers from one system to the next and its solutions depend on, where it says so.
@@ -291,7 +280,7 @@ class Newton {
   };
   [[no_unique_address]] Only<near_tangent, Probes, Solver> probes_;
   [[no_unique_address]] Only<is_direct<Solver>, FactorDigits, Newton> digits_;
-  bool measured_ = false;  // whether the matrix of this solution has been
+  bool measured_ = false;  // whether the matrix of this attempt has been
   Index analyzed_ = 0;
 };
 
