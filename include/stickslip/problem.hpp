@@ -266,7 +266,8 @@ void March<Model>::advance() {
       if (digits_lost(scale, left, system.blurred(), time >= options_.end))
         return fail({Cause::digits_lost, {}}, problem_.time_, dt, rejected + 1,
                     digits_left(system.blame(u, now_.floor_by_gaps != 0, now_.floor_by_gaps != 0 ? 1e8 : 1e3)));
-      if (step.negative_pivots < 0 && newton.iterations == 0) step.negative_pivots = now_.negative_pivots;
+      if constexpr (decltype(newton_)::tells_pivots)
+        if (newton.iterations == 0) step.negative_pivots = now_.negative_pivots;
       watch_pivots(step.negative_pivots);
       accept(step, first_iterations, error);
       problem_.accept(u, time, dt);
@@ -285,7 +286,8 @@ void March<Model>::advance() {
           newton.trouble = {Cause::unsupported, {}};
       std::string detail;
       const Cause cause = newton.trouble.cause;
-      if (cause == Cause::singular_matrix || cause == Cause::not_converged || cause == Cause::stalled) {
+      if (cause == Cause::singular_matrix || cause == Cause::not_converged || cause == Cause::stalled ||
+          cause == Cause::element_inverted) {
         detail = system.blame(problem_.u_, false, cause == Cause::singular_matrix ? 1e8 : drowned() ? 1e3 : 1e13);
         if (drowned()) detail = digits_left(detail);
         if (!detail.empty()) newton.trouble = {Cause::digits_lost, {}};

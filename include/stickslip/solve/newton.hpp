@@ -52,6 +52,9 @@ class Newton {
  public:
   explicit Newton(const NewtonOptions& chosen = {}) : options(chosen) {}
 
+  /// Whether the solver counts negative pivots.
+  static constexpr bool tells_pivots = requires(const Solver& solver) { solver.negative_pivots(); };
+
   NewtonOptions options;
   WorkCounts counts;
   Real known_scale = 0;  ///< the largest force scale that the run has had [force]
@@ -196,7 +199,7 @@ class Newton {
       if (f == Factorization::failed) return {Cause::singular_matrix, {}};
       if constexpr (requires { solver_.factor_bytes(); })
         counts.factor_bytes = std::max(counts.factor_bytes, std::size_t(solver_.factor_bytes()));
-      if constexpr (requires { solver_.negative_pivots(); }) report.negative_pivots = Index(solver_.negative_pivots());
+      if constexpr (tells_pivots) report.negative_pivots = Index(solver_.negative_pivots());
     }
     if constexpr (is_direct<Solver>)
       if (!std::exchange(measured_, true)) {
