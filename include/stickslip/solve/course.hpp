@@ -133,7 +133,9 @@ class Course {
   }
   // Whether of some converged state's forces more is left than the tolerance of the largest. Below 1e-7 the tolerance
   // is an aim: sticking a million times stiffer than the body takes as much.
-  bool drowned() const { return now_.floor > std::max(options_.tolerance, 1e-7) * now_.largest_force; }
+  bool drowned() const {
+    return now_.floor > std::max(options_.tolerance, NewtonOptions::promised) * now_.largest_force;
+  }
   // In words; `reason` may be empty.
   std::string digits_left(const std::string& reason) const {
     const auto digits = [](Real part) { return figure(std::max(0.0, -std::log10(part))); };

@@ -19,6 +19,9 @@ namespace stickslip {
 
 /// Parameters of Newton's method.
 struct NewtonOptions {
+  /// What round-off may leave of the forces of any run, however tight its tolerance (theory.md, eq. 6.2b).
+  static constexpr Real promised = 1e-7;
+
   Real tolerance = 1e-5;  ///< on the residual's norm over the force scale (theory.md, eq. 6.2)
   Index max_iterations = 20;
   bool line_search = true;  ///< shorten steps that do not lower the merit (theory.md, eq. 6.9)
@@ -93,13 +96,14 @@ class Newton {
             report.residual = 0;  // of forces that are none
             return report;
           }
+          const Real largest = std::max(scale, known_scale);
           // What round-off may leave is only a bound of what it does: the residual has to have stopped falling, unless
           // it is small in view of what the run has seen.
-          const bool small = norm <= options.tolerance * known_scale;
-          if (small) report.residual = norm / known_scale;
+          const bool small = norm <= std::max(options.tolerance, NewtonOptions::promised) * largest;
+          if (small) report.residual = norm / largest;
           idle = norm > 0.5 * least ? idle + 1 : 0;
           least = std::min(least, norm);
-          if (small || idle > 1) return report;
+          if (small || idle > (norm <= 10 * NewtonOptions::promised * largest ? 0 : 1)) return report;
         }
       }
       if (report.iterations == options.max_iterations) {
