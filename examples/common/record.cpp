@@ -106,14 +106,15 @@ void write_history(const std::filesystem::path& path, const Record& r) {
   std::ostream& csv = file.stream();
   csv.precision(12);
   csv << "step,time_s,displacement_mm,force_N,dt_s,iterations,rejected,residual,nodes_in_contact,nodes_sliding,max_"
-         "penetration_mm,max_slip_mm,lag,error_lag,error_time,error_penetration,error_space\n"
-      << "0," << r.time_s[0] << ',' << r.travel_mm[0] << ',' << r.force_N[0] << ",0,0,0,0,0,0,0,0,0,0,0,0,0\n";
+         "penetration_mm,max_slip_mm,lag,error_lag,error_time,error_penetration,error_space,negative_pivots\n"
+      << "0," << r.time_s[0] << ',' << r.travel_mm[0] << ',' << r.force_N[0] << ",0,0,0,0,0,0,0,0,0,0,0,0,0,0\n";
   for (std::size_t i = 0; i < r.steps.size(); ++i) {
     const auto& s = r.steps[i];
     csv << s.number << ',' << r.time_s[i + 1] << ',' << r.travel_mm[i + 1] << ',' << r.force_N[i + 1] << ',' << s.dt
         << ',' << s.iterations << ',' << s.rejected << ',' << s.residual << ',' << s.contact.touching << ','
         << s.contact.sliding << ',' << s.contact.max_penetration << ',' << s.contact.max_slip << ',' << s.lag << ','
-        << s.errors.lag << ',' << s.errors.time << ',' << s.errors.penetration << ',' << s.errors.space << '\n';
+        << s.errors.lag << ',' << s.errors.time << ',' << s.errors.penetration << ',' << s.errors.space << ','
+        << s.negative_pivots << '\n';
   }
   file.place();
 }

@@ -178,6 +178,7 @@ Index March<Model>::pass_again([[maybe_unused]] Field& u, [[maybe_unused]] Real 
       }
       newton.iterations += again.iterations;
       newton.residual = again.residual;
+      newton.negative_pivots = again.negative_pivots >= 0 ? again.negative_pivots : newton.negative_pivots;
       newton.trouble = again.trouble;
       if (newton.trouble) break;
     }
@@ -266,6 +267,7 @@ void March<Model>::advance() {
   for (;;) {
     const Real time = now_.control.next();
     const Real dt = time - problem_.time_;
+    newton_.known_scale = now_.largest_force;
     const bool guessed = problem_.guess(dt, u);
     Trouble trouble = system.impose(time, u);
     if constexpr (has_friction<Model>)
@@ -317,6 +319,7 @@ void March<Model>::advance() {
                       .iterations = newton.iterations,
                       .rejected = rejected,
                       .passes = passes,
+                      .negative_pivots = newton.negative_pivots,
                       .residual = newton.residual,
                       .contact = contact,
                       .local_error = local_error,
@@ -332,6 +335,14 @@ void March<Model>::advance() {
       if constexpr (has_lag<Model>())
         if (refusal == Cause::none && feeds_back(u, time, dt, contact)) refusal = Cause::lag_feeds_back;
       if (refusal != Cause::none) return fail({refusal, {}}, problem_.time_, dt, rejected + 1);
+      const Real force = system.force_scale(), scale = std::max(force, now_.largest_force);
+      const Real left = newton.residual > 0 ? system.residual_norm() : 0;  // not of a body that only moves
+      if (digits_lost(scale, left, system.blurred(), time >= options_.end))
+        return fail({Cause::digits_lost, {}}, problem_.time_, dt, rejected + 1,
+                    digits_left(system.blame(u, now_.floor_by_gaps != 0, now_.floor_by_gaps != 0 ? 1e8 : 1e3)));
+      if constexpr (decltype(newton_)::tells_pivots)
+        if (newton.iterations == 0) step.negative_pivots = now_.negative_pivots;
+      watch_pivots(step.negative_pivots);
       accept(step, first_iterations, error);
       problem_.accept(u, time, dt);
       state_ = problem_.revision_;
@@ -359,6 +370,12 @@ void March<Model>::advance() {
             newton.trouble = {Cause::slides, {}};
             detail = sliding.empty() ? system.sliding_contacts() : sliding;
           }
+      }
+      const Cause cause = newton.trouble.cause;
+      if (finds_no_balance(cause) || cause == Cause::element_inverted) {
+        detail = system.blame(problem_.u_, false, cause == Cause::singular_matrix ? 1e8 : drowned() ? 1e3 : 1e13);
+        if (drowned()) detail = digits_left(detail);
+        if (!detail.empty()) newton.trouble = {Cause::digits_lost, {}};
       }
       return fail(newton.trouble, problem_.time_, dt, rejected, std::move(detail));
     }

@@ -2,8 +2,10 @@
 #include "solvers.hpp"
 
 #include <doctest/doctest.h>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -43,6 +45,22 @@ const Matrix indefinite = lower(n, [](Index i, Index j) { return stiffness(i, j)
 // Pairs of equal rows, exact in any order of elimination.
 const Matrix singular =
     lower(n, [](Index i, Index j) { return i == j || (i - j == 1 && j % 2 == 0 && j < 20) ? 1.0 : 0.0; });
+
+// Springs across pairs of a chain's nodes, askew, that bury its stiffness along them; and a free chain, whose rows sum
+// to zero but for round-off.
+const std::vector<Matrix> doubtful = [] {
+  const auto askew = [](Real stiff) {
+    return lower(n, [stiff](Index i, Index j) {
+      const bool own = i == j && i < 20, across = i - j == 1 && j % 2 == 0 && j < 20;
+      return stiffness(i, j) + (own ? stiff * (i % 2 == 0 ? 0.64 : 0.36) : across ? stiff * 0.48 : 0);
+    });
+  };
+  const auto spring = [](Index k) { return k < 0 || k >= n - 1 ? 0 : 0.1 * (1 + k % 7); };
+  const Matrix free = lower(n, [spring](Index i, Index j) {
+    return i == j ? spring(i - 1) + spring(i) : i - j == 1 ? -spring(j) : 0;
+  });
+  return std::vector<Matrix>{askew(1e4), askew(1e8), askew(1e12), askew(1e18), askew(1e20), free};
+}();
 
 Matrix both_triangles(const Matrix& m) {
   const SparseView v = m.view();
@@ -135,6 +153,47 @@ TEST_CASE("positive, indefinite and singular matrices") {
     if (!iterative(name)) CHECK(o.singular.factorization == Factorization::failed);
     CHECK(o.again.factorization == Factorization::done);
     check_solution(o.again, positive);
+  }
+}
+TEST_CASE("a matrix without digits is judged alike by all direct solvers") {
+  for (const auto& entry : outcomes()) {
+    if (iterative(entry.first)) continue;
+    CAPTURE(entry.first);
+    REQUIRE(entry.second.judged.size() == 6);
+    for (std::size_t k = 0; k < 6; ++k) {
+      CAPTURE(k);
+      const Real condition = entry.second.judged[k].condition;
+      CHECK((condition <= FactorDigits::limit) == (k < 3));
+      if (k < 3) {  // of the same order by all of them, and that of the matrix
+        CHECK(condition > 0.01 * std::pow(1e4, k + 1));
+        CHECK(condition == doctest::Approx(outcomes().at("EigenLu").judged[k].condition).epsilon(k < 2 ? 1e-4 : 0.1));
+      }
+    }
+  }
+}
+TEST_CASE("a run without digits is refused by name by all solvers, and a stiff one is the same by all") {
+  const auto& reference = outcomes().at("EigenLu");
+  for (const auto& entry : outcomes()) {
+    CAPTURE(entry.first);
+    const stickslip::Outcome& end = entry.second.hopeless;
+    if (end && iterative(entry.first)) continue;
+    CHECK(end.trouble.cause == Cause::digits_lost);
+    CHECK(end.detail.find("the penalty of contact \"tool\"") != std::string::npos);
+    if (!iterative(entry.first)) CHECK(difference(entry.second.stiff, reference.stiff) < 1e-8);
+  }
+}
+TEST_CASE("negative pivots are the negative eigenvalues, of all solvers that tell them") {
+  const auto count = [](const Matrix& m) {
+    const Eigen::VectorXd all =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(m), Eigen::EigenvaluesOnly).eigenvalues();
+    return Index((all.array() < 0).count());
+  };
+  CHECK(count(indefinite) > 3);
+  for (const auto& entry : outcomes()) {
+    CAPTURE(entry.first);
+    const bool tells = symmetric(entry.first) && !iterative(entry.first);
+    CHECK(entry.second.positive.negative_pivots == (tells ? 0 : -1));
+    CHECK(entry.second.indefinite.negative_pivots == (tells ? count(indefinite) : -1));
   }
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/outcome.hpp>
 #include <stickslip/policy/linear_solver.hpp>
+#include <stickslip/solve/factor_digits.hpp>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,6 +20,8 @@ struct Answer {
   Factorization factorization;
   bool solved;
   std::vector<Real> x;
+  Index negative_pivots = -1;  ///< where it tells
+  Real condition = -1;         ///< as Newton's method would estimate it; infinite without a solution
 };
 struct Matrix {
   std::vector<Index> start, row;
@@ -32,8 +37,12 @@ struct Outcome {
   std::vector<Real> coulomb, quasi;  ///< empty where the solver does not take the system
   Answer positive, indefinite, singular;
   Answer again;  ///< to `positive`, after the other two with the same analysis, while another solver lives
+  std::vector<Answer> judged;     ///< to `doubtful`
+  std::vector<Real> stiff;        ///< end displacements of the run at penalties of 1e9 times the body's stiffness
+  stickslip::Outcome hopeless{};  ///< of the run at penalties of 1e19 times
 };
 extern const Matrix positive, indefinite, singular;  // the lower triangles
+extern const std::vector<Matrix> doubtful;           // singular to round-off, and nearly so
 Matrix both_triangles(const Matrix& lower);
 std::vector<Real> right_hand_side(const Matrix& m);
 
@@ -56,6 +65,16 @@ Matrix stored(const Matrix& lower) {
 template <class Solver>
 Answer answer(Solver& solver, const Matrix& m) {
   Answer a{solver.factorize(m.view()), false, std::vector<Real>(std::size_t(m.view().size))};
+  if constexpr (requires { solver.negative_pivots(); })
+    if (a.factorization != Factorization::failed) a.negative_pivots = solver.negative_pivots();
+  if constexpr (is_direct<Solver>) {
+    FactorDigits digits;
+    digits.resize(m.view().size);
+    a.condition =
+        a.factorization == Factorization::failed
+            ? std::numeric_limits<Real>::infinity()
+            : digits.condition(m.view(), [&](const Field& b, Field& x) { return solver.solve(b.data(), x.data()); });
+  }
   if (a.factorization != Factorization::failed) a.solved = solver.solve(right_hand_side(m).data(), a.x.data());
   return a;
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <stickslip/tensor/dual.hpp>
+#include <stickslip/tensor/near_one.hpp>
+#include <stickslip/tensor/products.hpp>
 #include <stickslip/tensor/spectral.hpp>
 #include <stickslip/tensor/tensor.hpp>
 
@@ -165,6 +167,35 @@ TEST_CASE("dual numbers compare by value") {
   CHECK(a <= b);
   CHECK(a >= b);
   CHECK(value_of(c) == 2);
+}
+
+TEST_CASE("logarithm, exponential and determinant near one keep the digits of what is added to it") {
+  for (int k = -200; k < 0; ++k)
+    for (const Real sign : {-0.9, 1.0}) {
+      const Real x = sign * std::pow(10.0, 0.1 * k);
+      CAPTURE(x);
+      CHECK(log_one_plus(x) == doctest::Approx(std::log1p(x)).epsilon(2e-15));
+      CHECK(exp_less_one(x) == doctest::Approx(std::expm1(x)).epsilon(1e-14));
+      using D = Dual<1>;
+      D d(x);
+      d.slope[0] = 1;
+      CHECK(log_one_plus(d).slope[0] == doctest::Approx(1 / (1 + x)).epsilon(1e-14));
+      CHECK(exp_less_one(d).slope[0] == doctest::Approx(std::exp(x)).epsilon(1e-14));
+    }
+  // Of 1 + size H, whose trace is zero: the second and third order alone.
+  const T H = tensor(0.3, 0.2, -0.5, 0.4, -0.7);
+  for (const Real size : {1.0, 1e-3, 1e-6}) {
+    T t;
+    t.v = scaled(H.v, size);
+    const Real second = 0.3 * 0.4 + 0.2 * 0.5 - 0.7 * (0.3 + 0.4), third = -0.7 * (0.3 * 0.4 + 0.2 * 0.5);
+    const Real exact = size * size * (second + size * third);
+    // The trace cancels by rounding its terms, which the tensor has to one part in 1e16 of them.
+    CHECK(std::abs(determinant_less_one(t) - exact) < 3e-16 * size);
+    Tensor<Real, Spatial> in_space;
+    for (const auto& [i, j] : Planar::pairs) in_space(i, j) = t(i, j);
+    CHECK(std::abs(determinant_less_one(in_space) - exact) < 3e-16 * size);
+    CHECK(std::abs(1 + determinant_less_one(t) - determinant(plus_one(t))) < 1e-15);
+  }
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <list>
 #include <string>
 #include <vector>
@@ -69,7 +70,9 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         enforcement_(contact.enforcement),
         start_depth_(contact.start_depth),
         weight_(nodes_.size(), 0.0),
-        pressures_(nodes_.size()) {
+        pressures_(nodes_.size()),
+        blur_(nodes_.size(), 0.0),
+        stiffness_(nodes_.size(), 0.0) {
     if (tool_.empty()) this->refuse("the tool has no surface");
     if (!(start_depth_ >= 0)) this->refuse("start_depth must not be negative");
     if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
@@ -195,6 +198,31 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if (closing != 0) look_ahead();
   }
   void move(Real length) { pressures_.move(length); }
+
+  /// Square of the norm of what the round-off of the gaps makes of the pressures, where of the body's stiffness at a
+  /// node no more than that share answers [force^2].
+  Real blurred(Real share) const {
+    Real square = 0, softest = std::numeric_limits<Real>::infinity();
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (trial_states_[k].touching && stiffness_[k] > 0) softest = std::min(softest, stiffness_[k]);
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (trial_states_[k].touching)
+        square += std::pow(std::min(pressures_[k].slope.norm(), share * softest) * blur_[k], 2);
+    return square;
+  }
+  /// The largest stiffness of sticking at any node; 0 without friction [force / length].
+  Real stickiest() const {
+    Real largest = 0;
+    if constexpr (with_friction)
+      for (const Real w : weight_) largest = std::max(largest, enforcement_.stick_stiffness(w));
+    return largest;
+  }
+  /// The larger of the stiffnesses of contact and sticking at any node [force / length].
+  Real stiffest() const {
+    Real largest = stickiest();
+    for (const Real w : weight_) largest = std::max(largest, enforcement_.normal_force(Real(-1), w, {}).d_gap);
+    return largest;
+  }
   Real openness() const { return pressures_.openness(); }
 
   /// Adds contact forces and their tangent at the nodal displacements u and `time`. With `excess`, at the pressures of
@@ -279,6 +307,9 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if (excess) {
         pressures_[k].slope = product(pose.rotation, node.pressure.slope);
         pressures_[k].excess = product(pose.rotation, node.pressure.excess);
+        blur_[k] = blur(at_node<dim>(u, n), mesh.nodes[static_cast<std::size_t>(n)], pose, at);
+        pressures_[k].forget(4 * blur_[k] * pressures_[k].slope.norm());
+        stiffness_[k] = matrix.template largest_diagonal<dim>(slots_[k]);  // of the body: contact is still to be added
         add_at_node(*excess, n, pressures_[k].excess);
         if constexpr (with_friction) add_at_node(*excess, n, product(pose.rotation, node.beyond));
       }
@@ -552,6 +583,14 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     }
   }
 
+  // Round-off of a gap [length]: that of the largest numbers that it is the difference of.
+  static Real blur(const Vec<Real, dim>& u, const Vec<Real, dim>& X, const rigid::Pose<dim>& pose,
+                   const SurfacePoint<Real, dim>& at) {
+    Real reach = std::max(X.norm() + u.norm(), pose.translation.norm());
+    if (const Real bend = at.hess_gap.norm(); bend > 0) reach = std::max(reach, 1 / bend);  // to the tool's centre
+    return std::numeric_limits<Real>::epsilon() * reach;
+  }
+
   Memory start_of_pass(std::size_t k, [[maybe_unused]] Real dt) const requires remembers {
     if constexpr (passes || lags) {
       Memory memory = renewed_[k];
@@ -686,7 +725,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   std::vector<Real> weight_;
   [[no_unique_address]] Only<takes_area, std::vector<Real>, Model> areas_;
   StiffRelations<dim> pressures_;
-  struct Start {  // of a search
+  std::vector<Real> blur_, stiffness_;  // of touching nodes in the last assembly: of their gaps, of the body there
+  struct Start {                        // of a search
     std::vector<Turning> turning{};
     bool probing = false;
   };

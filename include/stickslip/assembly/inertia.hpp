@@ -77,6 +77,11 @@ class InertiaForcesOf {
     matrix.combine(1 - s.alpha_f, matrix_, (1 - s.alpha_m) / (s.beta * dt_ * dt_));
   }
 
+  /// Largest entry of what `apply` adds to the tangent [force / length].
+  Real stiffness() const {
+    return (1 - policy_.scheme.alpha_m) / (policy_.scheme.beta * dt_ * dt_) * matrix_.largest();
+  }
+
   /// Makes the state of the last `apply` the converged one.
   void commit() {
     const TimeScheme& s = policy_.scheme;

@@ -21,6 +21,10 @@ class SparseMatrix {
   /// lower triangle.
   static constexpr int block_entries(int n) { return storage == Symmetry::symmetric ? n * (n + 1) / 2 : n * n; }
 
+  static constexpr int entry_on_diagonal(int n, int i) {
+    return storage == Symmetry::symmetric ? i * n - i * (i - 1) / 2 : i * (n + 1);
+  }
+
   /// Takes a pattern that was made for this storage, in full.
   void build(SparsityPattern& pattern) {
     pattern.compress(column_start_, row_);
@@ -47,6 +51,17 @@ class SparseMatrix {
   Real largest() const {
     Real m = 0;
     for (std::size_t k = 0; k + 1 < values_.size(); ++k) m = std::max(m, std::abs(values_[k]));
+    return m;
+  }
+
+  /// Largest of the entries that a scattered block has on the diagonal; 0 where it has none.
+  template <int n>
+  Real largest_diagonal(const std::array<Index, static_cast<std::size_t>(block_entries(n))>& slots) const {
+    Real m = 0;
+    for (int i = 0; i < n; ++i) {
+      const auto slot = static_cast<std::size_t>(slots[static_cast<std::size_t>(entry_on_diagonal(n, i))]);
+      if (slot < row_.size()) m = std::max(m, values_[slot]);
+    }
     return m;
   }
 

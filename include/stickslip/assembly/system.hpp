@@ -7,6 +7,7 @@
 #include <stickslip/assembly/parts.hpp>
 #include <stickslip/assembly/prescribed.hpp>
 #include <stickslip/assembly/rigid_motions.hpp>
+#include <stickslip/base/figure.hpp>
 
 #include <algorithm>
 #include <array>
@@ -129,6 +130,8 @@ class System {
   }
   /// Begins an iteration at the converged state's values of the stiff relations.
   void begin_iteration() {
+    measured_ = false;
+    if constexpr (with_inertia) with_mass_ = false;
     body_.begin_iteration();
     if constexpr (with_contact) for_each_contact(pairs_, [](auto& pair) { pair.begin_iteration(); });
   }
@@ -241,12 +244,67 @@ class System {
   Real force_scale() const { return std::max({internal_.norm(), contact_.norm(), external_.norm()}); }
   /// Largest coordinate of the body as it was [length].
   Real extent() const { return extent_; }
-  /// Residual that round-off alone leaves: the largest stiffness times the extent of the coordinates (theory.md, eq.
-  /// 6.2). Without it a body that only moves, free of stress, would never be in balance.
+  /// Bound of the residual that round-off alone leaves: the largest stiffness of the body and of sticking times the
+  /// extent of the coordinates (theory.md, eq. 6.2a).
   Real roundoff(const Field& u) const {
-    Real extent = u.lpNorm<Eigen::Infinity>();
-    if constexpr (with_contact) extent += extent_;
-    return 16 * std::numeric_limits<Real>::epsilon() * matrix_.largest() * extent * std::sqrt(Real(dofs_.unknowns()));
+    const Real moved = u.lpNorm<Eigen::Infinity>();
+    Real force = stiffness_ * (exact_strains && !with_contact ? moved : moved + extent_);
+    if constexpr (with_contact) force += sticking_ * (moved + extent_);
+    return 16 * std::numeric_limits<Real>::epsilon() * force * std::sqrt(Real(dofs_.unknowns()));
+  }
+  /// Whether all forces of the last evaluation are below that bound, and supports alone act on the body: it only moves,
+  /// free of stress, and would never be in balance but for its round-off.
+  bool only_moves(Real roundoff) const {
+    if constexpr (with_contact)
+      if (contact_summary().touching > 0) return false;
+    return external_.isZero(0) && internal_.norm() <= roundoff;
+  }
+  /// What the round-off of the gaps makes of the pressures, at the stiffness of the penalty or the body, whichever is
+  /// softer (theory.md, eq. 6.2d) [force].
+  Real blurred() const {
+    Real square = 0;
+    if constexpr (with_contact) {
+      Real share = 1;  // of the stiffness that a body shows whose volume may go aside
+      if constexpr (requires { body_.material().poisson; })
+        share = (1 - 2 * body_.material().poisson) / (1 - body_.material().poisson);
+      for_each_contact(pairs_, [&](const auto& pair) { square += pair.blurred(share); });
+    }
+    return std::sqrt(square);
+  }
+  /// What of the scene makes round-off of the forces, in words: a stiffness more than `worst` times another one, if
+  /// there is any; with `by_gaps` else the coordinates, to whose round-off the body answers. Spoils the last
+  /// evaluation.
+  std::string blame(const Field& u, bool by_gaps, Real worst) {
+    std::string words;
+    const auto accuse = [&](Real ratio, const std::string& text) {
+      if (!(ratio > worst)) return;
+      worst = ratio;
+      words = text;
+    };
+    if constexpr (requires { body_.material().poisson; }) {
+      const Real poisson = body_.material().poisson;
+      const Real ratio = 2 * (1 + poisson) / (3 * (1 - 2 * poisson));
+      accuse(ratio, "the bulk modulus is " + figure(ratio) + " times the shear modulus, at a Poisson's ratio " +
+                        figure(0.5 - poisson) + " below 0.5");
+    }
+    if (by_gaps) {
+      if (!words.empty()) return words;
+      const Real reach = extent_ + u.lpNorm<Eigen::Infinity>();
+      const RigidMotions<typename Model::Kinematics> motions(body_.mesh().nodes, u);
+      return "coordinates of up to " + figure(reach) + ", of a body that measures " + figure(motions.extent()) +
+             " from its centre, give gaps to no better than " + figure(std::numeric_limits<Real>::epsilon() * reach);
+    }
+    if constexpr (with_contact) {
+      internal_.setZero();
+      matrix_.set_zero();
+      if (!body_.assemble(u, 0, nullptr, internal_, nullptr, matrix_))
+        for_each_contact(pairs_, [&](const auto& pair) {
+          const Real ratio = pair.stiffest() / matrix_.largest();
+          accuse(ratio,
+                 "the penalty of contact \"" + pair.name() + "\" is " + figure(ratio) + " times the body's stiffness");
+        });
+    }
+    return words;
   }
   /// Force of a support on the body, by nodal component, inertia included; zero to the tolerance at free components.
   /// With generalised-alpha it is that of the balance, between the start and the end of the step.
@@ -381,6 +439,8 @@ class System {
       const Stopwatch watch(timings.assembly);
       static_force_ = balance_;
       inertia_.apply(u, static_force_, balance_, matrix_);
+      if (!with_mass_) stiffness_ += inertia_.stiffness();
+      with_mass_ = true;
       if constexpr (keeps_couplings<Model>) couplings_.scale(static_share());
     }
     dofs_.gather(balance_, residual_);
@@ -427,6 +487,21 @@ class System {
     });
   }
 
+  // The stiffnesses that round-off meets, once an iteration.
+  void measure_stiffness() {
+    measured_ = true;
+    stiffness_ = matrix_.largest();
+    sticking_ = 0;
+    if constexpr (with_contact)
+      for_each_contact(pairs_, [&](const auto& pair) { sticking_ = std::max(sticking_, pair.stickiest()); });
+  }
+  // Whether the material takes strains with all their digits.
+  static constexpr bool exact_strains =
+      requires(const typename Model::Material& material, const Deformation<Real, typename BodyType::Shape>& deformation,
+               const typename BodyType::State& state) {
+    material.respond(deformation, state, Real(0));
+  };
+
   // Weight of the forces at the end of a step in the balance.
   Real static_share() const {
     if constexpr (with_inertia) return 1 - inertia_.scheme().alpha_f;
@@ -441,6 +516,7 @@ class System {
     {
       const Stopwatch watch(timings.assembly);
       if (const Trouble t = body_.assemble(u, dt, driven, internal_, excess, matrix_)) return t;
+      if (!measured_) measure_stiffness();
     }
     if constexpr (with_contact) {
       const Stopwatch watch(timings.contact);
@@ -475,6 +551,9 @@ class System {
   Field open_;    // the residual without them
   [[no_unique_address]] Only<with_inertia, Field, System> static_force_;
   Real norm_ = 0, merit_ = 0;
+  Real stiffness_ = 0, sticking_ = 0;  // of the body, its inertia included, and of sticking [force / length]
+  bool measured_ = false;              // whether they are those of this iteration
+  [[no_unique_address]] Only<with_inertia, bool, struct MassTag> with_mass_{};
   Real extent_;  // largest reference coordinate
   Index pattern_revision_;
 };

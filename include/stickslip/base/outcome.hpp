@@ -26,6 +26,7 @@ enum class Cause {
   slide_turns,             ///< a tool turned, or moved to and fro, by more than a node's slide over the step can follow
   tunnelled,               ///< a node's way over the step led through a tool, whose force it never felt
   stalled,                 ///< no step along the Newton direction lowers the residual
+  digits_lost,             ///< round-off leaves of the forces less than the tolerance asks for
 };
 
 /// The sentence part that names a cause.
@@ -64,6 +65,8 @@ inline const char* describe(Cause cause) {
       return "a node went through a tool within the step";
     case Cause::stalled:
       return "the Newton iteration stalled";
+    case Cause::digits_lost:
+      return "round-off leaves of the forces less than the tolerance asks for";
   }
   return "an unknown cause";
 }

@@ -4,6 +4,7 @@
 #include <stickslip/element/gradient_operator.hpp>
 #include <stickslip/element/quad4.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/tensor/near_one.hpp>
 #include <stickslip/tensor/products.hpp>
 
 namespace stickslip {
@@ -38,9 +39,13 @@ struct FullyIntegrated {
     out.residual.setZero();
     out.tangent.setZero();
     for (std::size_t p = 0; p < points; ++p) {
-      const Tensor<S, Shape> F = deformation_gradient(geometry[p], u);
-      if (!(value_of(determinant(F)) > 0)) return Cause::element_inverted;
-      const auto answer = material.respond(F, old[p], dt);
+      Deformation<S, Shape> deformation;
+      deformation.H = displacement_gradient(geometry[p], u);
+      deformation.F = plus_one(deformation.H);
+      const S growth = determinant_less_one(deformation.H);
+      if (!(value_of(growth) > -1)) return Cause::element_inverted;
+      deformation.log_J = log_one_plus(growth);
+      const auto answer = answer_of(material, deformation, old[p], dt);
       if (answer.cause != Cause::none) return answer.cause;
       const S weight = S(geometry[p].weight);
       add(out.residual, pull_back(geometry[p], answer.P), weight);

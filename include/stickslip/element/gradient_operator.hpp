@@ -8,18 +8,25 @@ namespace stickslip {
 
 /// The linear operator B of a point, delta F = B delta u, applied without being formed (theory.md, eq. 2.3).
 
-/// F = I + B u for the nodal displacements u of the element.
+/// H = B u for the nodal displacements u of the element: the displacement gradient.
+template <class Kinematics, int nodes, class G, class S>
+Tensor<S, typename Kinematics::Shape> displacement_gradient(const PointGeometry<Kinematics, nodes, G>& point,
+                                                            const Vec<S, nodes * Kinematics::dim>& u) {
+  constexpr int dim = Kinematics::dim;
+  Tensor<S, typename Kinematics::Shape> H;
+  for (int a = 0; a < nodes; ++a) {
+    for (int i = 0; i < dim; ++i)
+      for (int J = 0; J < dim; ++J) H(i, J) += u[a * dim + i] * point.dN_dX(a, J);
+    if constexpr (Kinematics::hoop) H(2, 2) += u[a * dim] * point.N_over_R[a];
+  }
+  return H;
+}
+
+/// F = I + B u.
 template <class Kinematics, int nodes, class G, class S>
 Tensor<S, typename Kinematics::Shape> deformation_gradient(const PointGeometry<Kinematics, nodes, G>& point,
                                                            const Vec<S, nodes * Kinematics::dim>& u) {
-  constexpr int dim = Kinematics::dim;
-  auto F = Tensor<S, typename Kinematics::Shape>::identity();
-  for (int a = 0; a < nodes; ++a) {
-    for (int i = 0; i < dim; ++i)
-      for (int J = 0; J < dim; ++J) F(i, J) += u[a * dim + i] * point.dN_dX(a, J);
-    if constexpr (Kinematics::hoop) F(2, 2) += u[a * dim] * point.N_over_R[a];
-  }
-  return F;
+  return plus_one(displacement_gradient(point, u));
 }
 
 /// B^T P: the nodal forces that do the work of P.

@@ -4,9 +4,12 @@
 #include <stickslip/element/gradient_operator.hpp>
 #include <stickslip/element/quad4.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/tensor/near_one.hpp>
 #include <stickslip/tensor/products.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stickslip {
 
@@ -48,21 +51,25 @@ struct MeanDilatation {
                                           const std::array<State, points>& old, Real dt,
                                           ElementResult<S, dofs, points, State>& out,
                                           StiffRelation<S, dofs>* dilatation = nullptr) {
-    using std::exp, std::log, std::pow;
     using Shape = typename Kinematics::Shape;
     constexpr Symmetry symmetry = Material::symmetry;
     constexpr int size = Shape::size;
 
     // Volumes, and their first derivatives: div_p = delta J_p / J_p, mean_div = delta theta / theta.
-    std::array<Tensor<S, Shape>, points> F, F_inverse;
-    std::array<S, points> J;
+    // J - 1 and ln theta are had from the displacement gradient H: F has lost its digits.
+    std::array<Tensor<S, Shape>, points> F, F_inverse, H;
+    std::array<S, points> J, log_J;
     std::array<Vec<S, dofs>, points> div;
-    S reference = S(0), volume = S(0);
+    S reference = S(0), volume = S(0), gained = S(0);
     Vec<S, dofs> mean_div = Vec<S, dofs>::Zero();
     for (std::size_t p = 0; p < points; ++p) {
-      F[p] = deformation_gradient(geometry[p], u);
-      J[p] = determinant(F[p]);
+      H[p] = displacement_gradient(geometry[p], u);
+      F[p] = plus_one(H[p]);
+      const S growth = determinant_less_one(H[p]);
+      J[p] = S(1) + growth;
       if (!(value_of(J[p]) > 0)) return Cause::element_inverted;
+      log_J[p] = log_one_plus(growth);
+      gained += growth * geometry[p].weight;
       F_inverse[p] = inverse(F[p]);
       div[p] = pull_back(geometry[p], transpose(F_inverse[p]));
       const S v = J[p] * geometry[p].weight;
@@ -71,12 +78,14 @@ struct MeanDilatation {
       add(mean_div, div[p], v);
     }
     mean_div = scaled<S>(mean_div, S(1) / volume);
-    S theta = volume / reference;
+    S log_theta = log_one_plus(gained / reference);
     Vec<S, dofs> by_dilatation = Vec<S, dofs>::Zero();  // d force / d ln theta
     if (dilatation) {
-      dilatation->defect = log(theta) - dilatation->value;
+      dilatation->defect = log_theta - dilatation->value;
+      // A volume that the displacements cannot tell from the one asked for: else the bulk modulus makes forces of it.
+      if (std::abs(value_of(dilatation->defect)) <= roundoff(geometry[0], u)) dilatation->defect = S(0);
       dilatation->slope = mean_div;
-      theta = exp(dilatation->value);
+      log_theta = dilatation->value;
     }
 
     // Material, forces, and what of the tangent needs no sum over the points.
@@ -86,10 +95,15 @@ struct MeanDilatation {
     std::array<S, points> spherical;  // w_p tr(tau_p) / 3
     S spherical_sum = S(0);
     for (std::size_t p = 0; p < points; ++p) {
-      const S factor = pow(theta / J[p], Real(1) / 3);
-      Tensor<S, Shape> F_bar;
+      const S stretch = exp_less_one((log_theta - log_J[p]) / Real(3));
+      const S factor = S(1) + stretch;
+      Deformation<S, Shape> bar;
+      Tensor<S, Shape>& F_bar = bar.F;
       F_bar.v = scaled(F[p].v, factor);
-      const auto answer = material.respond(F_bar, old[p], dt);
+      bar.H.v = scaled(H[p].v, factor);
+      for (int i = 0; i < 3; ++i) bar.H(i, i) += stretch;
+      bar.log_J = log_theta;
+      const auto answer = answer_of(material, bar, old[p], dt);
       if (answer.cause != Cause::none) return answer.cause;
       out.states[p] = answer.state;
 
@@ -148,6 +162,18 @@ struct MeanDilatation {
     if constexpr (symmetry == Symmetry::symmetric) mirror(out.tangent);
     if (dilatation) dilatation->excess = scaled(by_dilatation, dilatation->defect);
     return Cause::none;
+  }
+
+ private:
+  // Of ln theta: the displacement gradient is a sum of products of displacements and shape gradients.
+  template <class Kinematics, class G, class S>
+  static Real roundoff(const PointGeometry<Kinematics, nodes, G>& point, const Vec<S, dofs>& u) {
+    Real moved = 0, gradient = 0;
+    for (int c = 0; c < dofs; ++c) moved = std::max(moved, std::abs(value_of(u[c])));
+    for (int a = 0; a < nodes; ++a)
+      for (int J = 0; J < dim; ++J) gradient = std::max(gradient, std::abs(value_of(point.dN_dX(a, J))));
+    const Real largest = moved * gradient;
+    return 4 * std::numeric_limits<Real>::epsilon() * largest * (1 + largest);
   }
 };
 

@@ -109,6 +109,7 @@ class BandedCholesky {
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::symmetric;
   static constexpr Symmetry storage = Symmetry::symmetric;
+  static constexpr bool direct = true;
 
   void analyze(const SparseView& pattern) {
     order_ = detail::band_ordering(pattern);
@@ -126,13 +127,14 @@ class BandedCholesky {
 
   Factorization factorize(const SparseView& matrix) {
     const OneBlasThread single;
-    std::fill(band_.begin(), band_.end(), 0.0);
-    for (std::size_t e = 0; e < slots_.size(); ++e) band_[slots_[e]] = matrix.values[e];
+    fill(matrix);
     const int ld = k_ + 1;
     int info = 0;
     dpbtrf_("L", &n_, &k_, band_.data(), &ld, &info, 1);
     indefinite_ = info != 0;
+    negative_pivots_ = 0;
     if (!indefinite_) return Factorization::done;
+    negative_pivots_ = count_negative(matrix);
     if (!lu_ready_) lu_.resize(n_, k_);
     lu_ready_ = true;
     lu_.set_zero();
@@ -156,11 +158,38 @@ class BandedCholesky {
     return info == 0;
   }
 
+  /// Of the last factorisation: as many as the matrix has negative eigenvalues.
+  Index negative_pivots() const { return negative_pivots_; }
   Index half_bandwidth() const { return k_; }
   /// Memory of the band that is factorised in place, and of the other one once a matrix was indefinite.
   std::size_t factor_bytes() const { return band_.size() * sizeof(Real) + lu_.bytes(); }
 
  private:
+  // The LU's signs do not tell: those of a band L D L^T without pivoting do, whose L is made in the band that Cholesky
+  // has given up.
+  Index count_negative(const SparseView& matrix) {
+    fill(matrix);
+    const auto k = static_cast<std::size_t>(k_), n = static_cast<std::size_t>(n_);
+    Index count = 0;
+    for (std::size_t j = 0; j < n; ++j) {
+      Real* const column = band_.data() + j * (k + 1);
+      const Real pivot = column[0];
+      if (pivot < 0) ++count;
+      if (pivot == 0) continue;
+      const std::size_t below = std::min(k, n - 1 - j);
+      for (std::size_t a = 1; a <= below; ++a) {
+        const Real factor = column[a] / pivot;
+        if (factor == 0) continue;
+        Real* const other = band_.data() + (j + a) * (k + 1);
+        for (std::size_t b = a; b <= below; ++b) other[b - a] -= factor * column[b];
+      }
+    }
+    return count;
+  }
+  void fill(const SparseView& matrix) {
+    std::fill(band_.begin(), band_.end(), 0.0);
+    for (std::size_t e = 0; e < slots_.size(); ++e) band_[slots_[e]] = matrix.values[e];
+  }
   template <class Visit>
   void for_each(const SparseView& m, Visit&& visit) const {
     for (Index j = 0; j < m.size; ++j)
@@ -169,7 +198,7 @@ class BandedCholesky {
   }
 
   detail::BandOrdering order_;
-  Index n_ = 0, k_ = 0;
+  Index n_ = 0, k_ = 0, negative_pivots_ = 0;
   std::vector<Real> band_, permuted_;
   std::vector<std::size_t> slots_;
   detail::BandLu lu_;
@@ -182,6 +211,7 @@ class BandedLu {
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::general;
   static constexpr Symmetry storage = Symmetry::general;
+  static constexpr bool direct = true;
 
   void analyze(const SparseView& pattern) {
     order_ = detail::band_ordering(pattern);

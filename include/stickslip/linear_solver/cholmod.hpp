@@ -22,6 +22,7 @@ class Cholmod {
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::symmetric;
   static constexpr Symmetry storage = Symmetry::symmetric;
+  static constexpr bool direct = true;
 
   Cholmod() : common_(std::make_unique<cholmod_common>()) {
     cholmod_start(common_.get());
@@ -78,6 +79,8 @@ class Cholmod {
     return refinement_.solve(matrix_, right_hand_side, solution,
                              [this](const Real* b, Real* x) { return backsolve(b, x); });
   }
+  /// Of the last factorisation: as many as the matrix has negative eigenvalues.
+  Index negative_pivots() const { return indefinite_ ? negative(*indefinite_factor_) : 0; }
   /// Memory of the last factor, its indices included.
   std::size_t factor_bytes() const {
     const cholmod_factor& f = indefinite_ ? *indefinite_factor_ : *factor_;
@@ -116,6 +119,14 @@ class Cholmod {
     for (std::size_t j = 0; j < f.n; ++j)
       if (!(x[start[j]] > 0)) return false;
     return true;
+  }
+
+  static Index negative(const cholmod_factor& f) {
+    const auto* start = static_cast<const Index*>(f.p);
+    const auto* x = static_cast<const Real*>(f.x);
+    Index count = 0;
+    for (std::size_t j = 0; j < f.n; ++j) count += x[start[j]] < 0 ? 1 : 0;
+    return count;
   }
 
   bool backsolve(const Real* b, Real* x) {

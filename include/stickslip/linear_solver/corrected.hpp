@@ -20,6 +20,7 @@ class Corrected {
   static constexpr Symmetry accepts = Symmetry::general;
   static constexpr Symmetry storage = Symmetry::symmetric;
   static constexpr bool corrects = true;
+  static constexpr bool direct = is_direct<Symmetric>;
   static constexpr Real tolerance = 1e-6;  ///< of the relative residual
   static constexpr Index most = 60;        ///< iterations of one solution
 
@@ -57,6 +58,11 @@ class Corrected {
 
   /// Iterations of all solutions so far: back-substitutions.
   Index inner_iterations() const { return inner_iterations_; }
+  /// A solution of the symmetric part alone: what digits that has the whole has as well.
+  bool probe(const Real* right_hand_side, Real* solution) { return solver_.solve(right_hand_side, solution); }
+  /// Of the symmetric part.
+  Index negative_pivots() const requires requires(const Symmetric& s) { s.negative_pivots(); }
+  { return solver_.negative_pivots(); }
   /// Memory of the symmetric factor.
   std::size_t factor_bytes() const requires requires(const Symmetric& s) { s.factor_bytes(); }
   { return solver_.factor_bytes(); }

@@ -12,14 +12,15 @@
 namespace stickslip {
 
 /// Eigen's simplicial L D L^T with approximate minimum degree. It does not pivot: of an indefinite matrix the solution
-/// is checked and refined, and refused if it stays wrong; a zero pivot fails. Use it as `EigenLdlt`; a template, so that
-/// only a program that uses it compiles it.
+/// is checked and refined, and refused if it stays wrong; a zero pivot fails. Use it as `EigenLdlt`; a template, so
+/// that only a program that uses it compiles it.
 template <class Matrix>
 class EigenLdltOf {
  public:
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::symmetric;
   static constexpr Symmetry storage = Symmetry::symmetric;
+  static constexpr bool direct = true;
 
   void analyze(const SparseView& pattern) {
     refinement_.resize(pattern.size);
@@ -37,6 +38,8 @@ class EigenLdltOf {
     return refinement_.solve(matrix_, right_hand_side, solution,
                              [this](const Real* b, Real* x) { return backsolve(b, x); });
   }
+  /// Of the last factorisation: as many as the matrix has negative eigenvalues.
+  Index negative_pivots() const { return static_cast<Index>((solver_.vectorD().array() < 0).count()); }
   /// Memory of the last factor, its indices included.
   std::size_t factor_bytes() const {
     const auto entries = static_cast<std::size_t>(solver_.matrixL().nestedExpression().nonZeros());

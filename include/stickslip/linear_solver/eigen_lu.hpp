@@ -18,6 +18,7 @@ class EigenLuOf {
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::general;
   static constexpr Symmetry storage = Symmetry::general;
+  static constexpr bool direct = true;
 
   void analyze(const SparseView& pattern) { analyze_pattern(solver_, pattern); }
   Factorization factorize(const SparseView& matrix) {

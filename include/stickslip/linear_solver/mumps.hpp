@@ -53,6 +53,7 @@ class MumpsSolver {
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = system;
   static constexpr Symmetry storage = system;
+  static constexpr bool direct = true;
 
   void analyze(const SparseView& pattern) {
     mumps_ = detail::start_mumps(system);
@@ -81,7 +82,9 @@ class MumpsSolver {
       done = run(2);
     }
     if (!done) return Factorization::failed;
-    return system == Symmetry::symmetric && negative_pivots() > 0 ? Factorization::indefinite : Factorization::done;
+    if constexpr (system == Symmetry::symmetric)
+      if (negative_pivots() > 0) return Factorization::indefinite;
+    return Factorization::done;
   }
 
   bool solve(const Real* right_hand_side, Real* solution) {
@@ -91,7 +94,7 @@ class MumpsSolver {
   }
 
   /// Of the last factorisation of a symmetric system: as many as the matrix has negative eigenvalues.
-  Index negative_pivots() const { return mumps_->infog[11]; }
+  Index negative_pivots() const requires(system == Symmetry::symmetric) { return mumps_->infog[11]; }
   /// Memory of the last factor, its indices included.
   std::size_t factor_bytes() const {
     const auto count = [&](int k) {  // MUMPS's INFOG(k + 1), negative if it stands for millions

@@ -19,6 +19,7 @@ class Umfpack {
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::general;
   static constexpr Symmetry storage = Symmetry::general;
+  static constexpr bool direct = true;
 
   Umfpack() {
     umfpack_di_defaults(control_.data());

@@ -32,15 +32,20 @@ struct FiniteJ2 {
 
   template <class S, class Shape>
   MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>& old,
-                                                      Real) const {
+                                                      Real dt) const {
+    return respond(Deformation<S, Shape>::of(F), old, dt);
+  }
+  template <class S, class Shape>
+  MaterialResponse<S, Shape, State<S, Shape>> respond(const Deformation<S, Shape>& deformation,
+                                                      const State<S, Shape>& old, Real) const {
     using std::exp;
     const auto [bulk, shear] = ElasticModuli::from(young, poisson);
-    const Tensor<S, Shape> F_inverse = inverse(F);
-    const Spectral<S, Shape> b = spectral(product(product(F, old.Cp_inverse.full()), transpose(F)));
-
-    const Vec<S, 3> e = log_strains(b);
-    const S volumetric = e[0] + e[1] + e[2];
-    const Vec<S, 3> deviator(e[0] - volumetric / S(3), e[1] - volumetric / S(3), e[2] - volumetric / S(3));
+    const Tensor<S, Shape> F_inverse = inverse(deformation.F);
+    Tensor<S, Shape> flowed = old.Cp_inverse.full();  // Cp^-1 - 1
+    for (int i = 0; i < 3; ++i) flowed(i, i) -= S(1);
+    const auto [b, e] = LogStrains<S, Shape>(deformation, &flowed);
+    const S mean = (e[0] + e[1] + e[2]) / S(3);
+    const Vec<S, 3> deviator(e[0] - mean, e[1] - mean, e[2] - mean);
 
     MaterialResponse<S, Shape, State<S, Shape>> out;
     out.state = old;
@@ -63,7 +68,7 @@ struct FiniteJ2 {
     }
     PrincipalStress<S> stress;
     for (int A = 0; A < 3; ++A) {
-      stress.tau[A] = S(2 * shear) * r.ratio * deviator[A] + S(bulk) * volumetric;
+      stress.tau[A] = S(2 * shear) * r.ratio * deviator[A] + S(bulk) * deformation.log_J;
       for (int B = 0; B < 3; ++B)
         stress.dtau_de(A, B) = S(bulk) + S(2 * shear) * (r.ratio * S((A == B ? 1. : 0.) - 1. / 3) -
                                                          r.softening * deviator[A] * deviator[B]);

@@ -18,19 +18,24 @@ struct Hencky {
   struct State {};
 
   template <class S, class Shape>
-  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>&, Real) const {
+  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>& old,
+                                                      Real dt) const {
+    return respond(Deformation<S, Shape>::of(F), old, dt);
+  }
+  template <class S, class Shape>
+  MaterialResponse<S, Shape, State<S, Shape>> respond(const Deformation<S, Shape>& deformation, const State<S, Shape>&,
+                                                      Real) const {
     const auto [bulk, shear] = ElasticModuli::from(young, poisson);
-    const Spectral<S, Shape> b = spectral(product(F, transpose(F)));
-    const Vec<S, 3> e = log_strains(b);
-    const S volumetric = e[0] + e[1] + e[2];
+    const auto [b, e] = LogStrains<S, Shape>(deformation, nullptr);
+    const S mean = (e[0] + e[1] + e[2]) / S(3);
     PrincipalStress<S> stress;
     for (int A = 0; A < 3; ++A) {
-      stress.tau[A] = S(2 * shear) * e[A] + S(bulk - 2 * shear / 3) * volumetric;
+      stress.tau[A] = S(2 * shear) * (e[A] - mean) + S(bulk) * deformation.log_J;
       for (int B = 0; B < 3; ++B) stress.dtau_de(A, B) = S(bulk - 2 * shear / 3 + (A == B ? 2 * shear : 0));
     }
     stress.secant = S(2 * shear);
     MaterialResponse<S, Shape, State<S, Shape>> out;
-    from_principal(b, inverse(F), stress, out);
+    from_principal(b, inverse(deformation.F), stress, out);
     return out;
   }
 

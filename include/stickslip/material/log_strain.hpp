@@ -3,9 +3,12 @@
 
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/base/require.hpp>
+#include <stickslip/policy/material.hpp>
+#include <stickslip/tensor/near_one.hpp>
 #include <stickslip/tensor/products.hpp>
 #include <stickslip/tensor/spectral.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -34,6 +37,37 @@ Vec<S, 3> log_strains(const Spectral<S, Shape>& b) {
   for (int A = 0; A < 3; ++A) e[A] = S(0.5) * log(b.values[A]);
   return e;
 }
+
+/// b = F G F^T, G = 1 + D, by its principal values and directions, and the logarithmic strains with the digits that
+/// F - 1 = H has (theory.md, eq. 3.3a).
+template <class S, class Shape>
+struct LogStrains {
+  Spectral<S, Shape> b;
+  Vec<S, 3> e;  ///< ln(b_A) / 2
+
+  LogStrains(const Deformation<S, Shape>& deformation, const Tensor<S, Shape>* D) {
+    const Tensor<S, Shape>& H = deformation.H;
+    Tensor<S, Shape> less_one;  // b - 1 = H + H^T + H H^T + F D F^T
+    less_one.v = product(H, transpose(H)).v;
+    for (int a = 0; a < Shape::size; ++a) {
+      const auto [i, j] = Shape::pairs[std::size_t(a)];
+      less_one.v[a] += H(i, j) + H(j, i);
+    }
+    if (D) add(less_one.v, product(product(deformation.F, *D), transpose(deformation.F)).v);
+    Real largest = 0;
+    for (int a = 0; a < Shape::size; ++a) largest = std::max(largest, std::abs(value_of(less_one.v[a])));
+    if (largest < 0.1) {
+      b = spectral(less_one);
+      for (int A = 0; A < 3; ++A) {
+        e[A] = S(0.5) * log_one_plus(b.values[A]);
+        b.values[A] += S(1);
+      }
+    } else {  // the digits are in b, and the smallest value keeps its own
+      b = spectral(plus_one(less_one));
+      e = log_strains(b);
+    }
+  }
+};
 
 /// Hencky's stored energy per reference volume at the elastic b (theory.md, eq. 3.1).
 template <class S, class Shape>

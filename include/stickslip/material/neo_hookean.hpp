@@ -20,15 +20,24 @@ struct NeoHookean {
   struct State {};
 
   template <class S, class Shape>
-  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>&, Real) const {
-    using std::log;
+  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>& old,
+                                                      Real dt) const {
+    return respond(Deformation<S, Shape>::of(F), old, dt);
+  }
+  template <class S, class Shape>
+  MaterialResponse<S, Shape, State<S, Shape>> respond(const Deformation<S, Shape>& deformation, const State<S, Shape>&,
+                                                      Real) const {
     const auto moduli = ElasticModuli::from(young, poisson);
     const Real shear = moduli.shear, lame = moduli.lame();
-    const Tensor<S, Shape> F_inverse = inverse(F);
-    const S tension = S(lame) * log(determinant(F)) - S(shear);  // factor of F^-T in P
+    const Tensor<S, Shape> F_inverse = inverse(deformation.F), F_inverse_T = transpose(F_inverse);
+    const S pressure = S(lame) * deformation.log_J;
+    const S tension = pressure - S(shear);  // factor of F^-T in P
     MaterialResponse<S, Shape, State<S, Shape>> out;
-    out.P.v = scaled(transpose(F_inverse).v, tension);
-    add(out.P.v, F.v, S(shear));
+    // F - F^-T = H + H^T F^-T, which keeps its digits at small strain.
+    out.P.v = product(transpose(deformation.H), F_inverse_T).v;
+    add(out.P.v, deformation.H.v);
+    out.P.v = scaled(out.P.v, S(shear));
+    add(out.P.v, F_inverse_T.v, pressure);
     out.dP_dF = isotropic<Shape::size>(S(shear));
     for (int a = 0; a < Shape::size; ++a)
       for (int b = 0; b < Shape::size; ++b) {

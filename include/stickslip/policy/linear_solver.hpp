@@ -53,6 +53,13 @@ concept LinearSolverPolicy = requires(L& solver, const SparseView& matrix, const
   { solver.solve(right_hand_side, solution) } -> std::same_as<bool>;
 };
 
+/// Whether a solver keeps a factor, so that another solution costs a fraction of the factorisation: it says `direct`.
+/// It is asked what digits the matrix leaves then.
+template <class L>
+inline constexpr bool is_direct = requires {
+  requires L::direct;
+};
+
 /// Whether a solver takes a general system as a symmetric matrix and the blocks that it lacks.
 template <class L>
 inline constexpr bool takes_corrections = requires {

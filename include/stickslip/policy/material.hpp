@@ -4,11 +4,30 @@
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/base/role.hpp>
 #include <stickslip/base/symmetry.hpp>
+#include <stickslip/tensor/products.hpp>
 #include <stickslip/tensor/tensor.hpp>
 
+#include <cmath>
 #include <concepts>
 
 namespace stickslip {
+
+/// A deformation gradient F and two quantities that it tells with an error of one rounding of 1 only, however small the
+/// strain: an element gives them with all their digits (theory.md, eq. 2.13).
+template <class S, class Shape>
+struct Deformation {
+  Tensor<S, Shape> F;
+  Tensor<S, Shape> H;  ///< F - 1
+  S log_J;             ///< ln det F
+
+  /// What F alone tells.
+  static Deformation of(const Tensor<S, Shape>& F) {
+    using std::log;
+    Deformation d{F, F, log(determinant(F))};
+    for (int i = 0; i < 3; ++i) d.H(i, i) -= S(1);
+    return d;
+  }
+};
 
 /// What a material answers to a deformation gradient.
 template <class S, class Shape, class State>
@@ -21,7 +40,8 @@ struct MaterialResponse {
 
 /// Constitutive law at a point: old memory in, stress, consistent tangent and new memory out. `State<S, Shape>` is an
 /// empty struct where nothing is remembered. A second call with the new memory, the same F and dt = 0 returns the same
-/// stress. docs/policies.md, section Material.
+/// stress. A law that can be had with more digits takes a Deformation in place of F as well. docs/policies.md, section
+/// Material.
 template <class M, class Shape>
 concept MaterialPolicy = requires(const M& material, const Tensor<Real, Shape>& F,
                                   const typename M::template State<Real, Shape>& old, Real dt) {
@@ -32,6 +52,16 @@ concept MaterialPolicy = requires(const M& material, const Tensor<Real, Shape>& 
     material.respond(F, old, dt)
     } -> std::same_as<MaterialResponse<Real, Shape, typename M::template State<Real, Shape>>>;
 };
+
+/// What a material answers at a point of an element, with all the digits that it can use.
+template <class Material, class S, class Shape, class State>
+MaterialResponse<S, Shape, State> answer_of(const Material& material, const Deformation<S, Shape>& deformation,
+                                            const State& old, Real dt) {
+  if constexpr (requires { material.respond(deformation, old, dt); })
+    return material.respond(deformation, old, dt);
+  else
+    return material.respond(deformation.F, old, dt);
+}
 
 /// Flow stress and its slope at one accumulated plastic strain.
 template <class S>

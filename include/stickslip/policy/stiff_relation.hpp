@@ -4,6 +4,7 @@
 #include <stickslip/base/archive.hpp>
 #include <stickslip/base/types.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -20,6 +21,14 @@ struct StiffRelation {
   S defect = S(0);                       ///< what the displacements ask for, less the value
   Vec<S, n> slope = Vec<S, n>::Zero();   ///< derivative of what the displacements ask for
   Vec<S, n> excess = Vec<S, n>::Zero();  ///< forces that closing the defect adds, to first order [force]
+
+  /// Takes a defect for none that is no larger than the round-off of what the displacements ask for: the value has more
+  /// digits then (theory.md, section 6.4).
+  void forget(Real roundoff) {
+    if (!(std::abs(value_of(defect)) <= roundoff)) return;
+    defect = S(0);
+    excess.setZero();
+  }
 };
 
 /// The stiff relations of one kind in an iteration.

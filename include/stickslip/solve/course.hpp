@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/figure.hpp>
 #include <stickslip/solve/report.hpp>
 #include <stickslip/solve/step_control.hpp>
 #include <stickslip/solve/warnings.hpp>
@@ -33,6 +34,10 @@ class Course {
     Index swings = 0;     // how often it has changed its sign and not fallen since it was last small, or probed
     WorkCounts work{};    // that of probes as well, which the report is told with the next step
     Warnings warnings{};
+    Real largest_force = 0;  // scale of a converged state
+    Real floor = 0;          // force that was left of a converged state, at most
+    Index floor_by_gaps = 0;
+    Index negative_pivots = 0;  // as last told; a body free of load has none
 
     void serialize(Archive& archive) {
       control.serialize(archive);
@@ -43,6 +48,10 @@ class Course {
       archive("run, swings", swings);
       archive("run, work", work);
       warnings.serialize(archive);
+      archive("run, largest force", largest_force);
+      archive("run, round-off of forces", floor);
+      archive("run, round-off of gaps", floor_by_gaps);
+      archive("run, negative pivots", negative_pivots);
     }
   };
 
@@ -111,6 +120,39 @@ class Course {
   // Warns of something in the step that is being taken; `subject` says of what, where a scene has several.
   void warn(const std::string& name, const std::string& subject, const std::string& text) {
     now_.warnings.add(name, subject, text, now_.report.steps + 1);
+  }
+  // Books what is left of a converged state's forces, `residual` and what the gaps' round-off makes of them, and the
+  // largest `scale` so far; whether that is too much in a run that ends with this step (theory.md, eq. 6.2b).
+  bool digits_lost(Real scale, Real residual, Real of_gaps, bool ends) {
+    now_.largest_force = scale;
+    const Real left = std::max(residual, of_gaps);
+    if (left > now_.floor) {
+      now_.floor = left;
+      now_.floor_by_gaps = of_gaps > residual ? 1 : 0;
+    }
+    if (left > options_.tolerance * scale) warn("digits_lost", "", digits_left({}));
+    return ends && drowned();
+  }
+  // Whether of some converged state's forces more is left than the tolerance of the largest. Below 1e-7 the tolerance
+  // is an aim: sticking a million times stiffer than the body takes as much.
+  bool drowned() const {
+    return now_.floor > std::max(options_.tolerance, NewtonOptions::promised) * now_.largest_force;
+  }
+  // In words; `reason` may be empty.
+  std::string digits_left(const std::string& reason) const {
+    const auto digits = [](Real part) { return figure(std::max(0.0, -std::log10(part))); };
+    return digits(now_.floor / now_.largest_force) + " digits of the forces are left, the tolerance asks for " +
+           digits(options_.tolerance) + (reason.empty() ? "" : "; " + reason);
+  }
+  // Watches the number of negative pivots.
+  void watch_pivots(Index now) {
+    if (now < 0) return;
+    if (now != now_.negative_pivots)
+      warn("pivots_changed", "",
+           "the negative pivots of the tangent went from " + std::to_string(now_.negative_pivots) + " to " +
+               std::to_string(now) + ": balance has become unstable or stable, a limit point or a bifurcation lies " +
+               "behind (docs/stability.md)");
+    now_.negative_pivots = now;
   }
   // Ends the run at the converged time, for the trouble of the step that was tried last; `detail` names what of the
   // scene is concerned.

@@ -6,16 +6,22 @@
 #include <stickslip/base/nothing.hpp>
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/policy/linear_solver.hpp>
+#include <stickslip/solve/factor_digits.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace stickslip {
 
 /// Parameters of Newton's method.
 struct NewtonOptions {
+  /// What round-off may leave of the forces of any run, however tight its tolerance (theory.md, eq. 6.2b).
+  static constexpr Real promised = 1e-7;
+
   Real tolerance = 1e-5;  ///< on the residual's norm over the force scale (theory.md, eq. 6.2)
   Index max_iterations = 20;
   bool line_search = true;  ///< shorten steps that do not lower the merit (theory.md, eq. 6.9)
@@ -28,7 +34,8 @@ struct NewtonReport {
   Index iterations = 0;  ///< linear solutions
   Index line_search_cuts = 0;
   Index indefinite_factorizations = 0;
-  Real residual = 0;  ///< last residual over force scale [-]
+  Real residual = 0;           ///< last residual over force scale [-]
+  Index negative_pivots = -1;  ///< of the last factorisation; -1: none was made, or the solver does not tell
 };
 
 /// Counts of work that outlive a step. Without padding: it stands in restart files as it is.
@@ -48,14 +55,19 @@ class Newton {
  public:
   explicit Newton(const NewtonOptions& chosen = {}) : options(chosen) {}
 
+  /// Whether the solver counts negative pivots.
+  static constexpr bool tells_pivots = requires(const Solver& solver) { solver.negative_pivots(); };
+
   NewtonOptions options;
   WorkCounts counts;
+  Real known_scale = 0;  ///< the largest force scale that the run has had [force]
 
   /// Solves for the displacements u at `time`, from the guess that u holds. With `driven`, the first linear system
   /// carries those increments of the constrained components as well (a tangent predictor). On failure u is spoilt.
   template <class System>
   NewtonReport solve(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
     system.begin_iteration();
+    measured_ = false;
     return resume(system, u, time, dt, driven);
   }
 
@@ -66,16 +78,39 @@ class Newton {
     prepare(system);
     if ((report.trouble = system.iterate(u, time, dt, driven))) return report;
     Index stalls = 0;
+    Real least = std::numeric_limits<Real>::infinity();  // residual that may be round-off
+    Index idle = 0;                                      // iterations that have not halved it
     for (;;) {
       const Real norm = system.residual_norm();
       const Real scale = system.force_scale();
       report.residual = scale > 0 ? norm / scale : 0;
-      if (!driven && (norm <= options.tolerance * scale || norm <= system.roundoff(u))) return report;
+      if (!driven) {
+        if (norm <= options.tolerance * scale) return report;
+        if (norm <= 64 * std::numeric_limits<Real>::epsilon() * known_scale) {  // nothing beside what has been
+          report.residual = norm / known_scale;
+          return report;
+        }
+        const Real bound = system.roundoff(u);
+        if (norm <= bound) {
+          if (system.only_moves(bound)) {
+            report.residual = 0;  // of forces that are none
+            return report;
+          }
+          const Real largest = std::max(scale, known_scale);
+          // What round-off may leave is only a bound of what it does: the residual has to have stopped falling, unless
+          // it is small in view of what the run has seen.
+          const bool small = norm <= std::max(options.tolerance, NewtonOptions::promised) * largest;
+          if (small) report.residual = norm / largest;
+          idle = norm > 0.5 * least ? idle + 1 : 0;
+          least = std::min(least, norm);
+          if (small || idle > (norm <= 10 * NewtonOptions::promised * largest ? 0 : 1)) return report;
+        }
+      }
       if (report.iterations == options.max_iterations) {
         report.trouble.cause = Cause::not_converged;
         return report;
       }
-      if ((report.trouble = direction(system))) return report;
+      if ((report.trouble = direction(system, report))) return report;
       ++report.iterations;
       change_.setZero();
       system.dofs().scatter_add(-1, step_, change_);
@@ -122,6 +157,11 @@ class Newton {
         go();
       }
       if (trouble || stalls > 1) {
+        const Real left = system.residual_norm();
+        if (!trouble && left <= system.roundoff(u)) {  // it has come to its floor
+          if (system.force_scale() > 0) report.residual = left / system.force_scale();
+          return report;
+        }
         report.trouble = trouble ? trouble : Trouble{Cause::stalled, {}};
         return report;
       }
@@ -147,12 +187,13 @@ class Newton {
     start_.setZero(system.dofs().components());
     change_ = start_;
     if constexpr (near_tangent) probes_.krylov.resize(system.dofs().unknowns());
+    if constexpr (is_direct<Solver>) digits_.resize(system.dofs().unknowns());
     analyzed_ = system.pattern_revision();
   }
 
   // step_ = K^-1 R.
   template <class System>
-  Trouble direction(System& system) {
+  Trouble direction(System& system, NewtonReport& report) {
     if (step_.size() == 0) return {};  // nothing to solve for; the stiff relations close all the same
     {
       const Stopwatch watch(system.timings.factorization);
@@ -162,7 +203,15 @@ class Newton {
       if (f == Factorization::failed) return {Cause::singular_matrix, {}};
       if constexpr (requires { solver_.factor_bytes(); })
         counts.factor_bytes = std::max(counts.factor_bytes, std::size_t(solver_.factor_bytes()));
+      if constexpr (tells_pivots) report.negative_pivots = Index(solver_.negative_pivots());
     }
+    if constexpr (is_direct<Solver>)
+      if (!std::exchange(measured_, true)) {
+        const Stopwatch watch(system.timings.solve);
+        const Real condition =
+            digits_.condition(system.matrix(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
+        if (condition > FactorDigits::limit) return {Cause::singular_matrix, {}};
+      }
     const Index corrections = corrections_so_far();
     const bool solved = substitute(system, system.residual(), step_);
     counts.corrections += corrections_so_far() - corrections;
@@ -170,6 +219,13 @@ class Newton {
     // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
     if (step_.lpNorm<Eigen::Infinity>() > 1e6 * system.extent()) return {Cause::singular_matrix, {}};
     return {};
+  }
+
+  bool probe(const Real* right_hand_side, Real* solution) {
+    if constexpr (requires { solver_.probe(right_hand_side, solution); })
+      return solver_.probe(right_hand_side, solution);
+    else
+      return solver_.solve(right_hand_side, solution);
   }
 
   template <class System>
@@ -233,6 +289,8 @@ class Newton {
     Field residual;
   };
   [[no_unique_address]] Only<near_tangent, Probes, Solver> probes_;
+  [[no_unique_address]] Only<is_direct<Solver>, FactorDigits, Newton> digits_;
+  bool measured_ = false;  // whether the matrix of this attempt has been
   Index analyzed_ = 0;
 };
 

@@ -12,10 +12,11 @@ struct StepReport {
   Index number = 0;  ///< from 1
   Real time = 0;
   Real dt = 0;
-  Index iterations = 0;  ///< Newton iterations of this step, those of rejected attempts not counted
-  Index rejected = 0;    ///< attempts that were thrown away before it
-  Index passes = 1;      ///< over the step; more than one with multipliers or a bound that is brought up to date
-  Real residual = 0;     ///< over the force scale
+  Index iterations = 0;        ///< Newton iterations of this step, those of rejected attempts not counted
+  Index rejected = 0;          ///< attempts that were thrown away before it
+  Index passes = 1;            ///< over the step; more than one with multipliers or a bound that is brought up to date
+  Index negative_pivots = -1;  ///< of the tangent, its negative eigenvalues; -1 where the solver does not tell
+  Real residual = 0;           ///< over the force scale
   ContactSummary contact{};
   /// Part of the friction bounds that the law has not seen yet: their changes, summed over the nodes, over their sum
   /// (theory.md, eq. 5.11); zero for laws that follow the current pressure.

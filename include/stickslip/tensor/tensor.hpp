@@ -91,6 +91,26 @@ Tensor<S, Planar> inverse(const Tensor<S, Planar>& t) {
   return r;
 }
 
+/// 1 + t.
+template <class S, class Shape>
+Tensor<S, Shape> plus_one(Tensor<S, Shape> t) {
+  for (int i = 0; i < 3; ++i) t(i, i) += S(1);
+  return t;
+}
+
+/// determinant(1 + t) - 1, without taking 1 from what is nearly 1.
+template <class S>
+S determinant_less_one(const Tensor<S, Planar>& t) {
+  const S in_plane = t(0, 0) + t(1, 1) + (t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0));
+  return in_plane + t(2, 2) + in_plane * t(2, 2);
+}
+template <class S>
+S determinant_less_one(const Tensor<S, Spatial>& t) {
+  const S minors = (t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0)) + (t(1, 1) * t(2, 2) - t(1, 2) * t(2, 1)) +
+                   (t(0, 0) * t(2, 2) - t(0, 2) * t(2, 0));
+  return t(0, 0) + t(1, 1) + t(2, 2) + minors + determinant(t);
+}
+
 /// Transpose of the cofactors: t adjugate(t) = determinant(t) 1.
 template <class S>
 Tensor<S, Planar> adjugate(const Tensor<S, Planar>& t) {
