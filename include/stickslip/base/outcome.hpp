@@ -21,6 +21,7 @@ enum class Cause {
   passes_failed,     ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
   lag_feeds_back,    ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
   tunnelled,         ///< a node's way over the step led through a tool, whose force it never felt
+  energy_gained,     ///< the time scheme has made energy, beyond the limit that was asked for
   stalled,           ///< no step along the Newton direction lowers the residual
 };
 
@@ -52,6 +53,8 @@ inline const char* describe(Cause cause) {
              "size; take the current pressure";
     case Cause::tunnelled:
       return "a node went through a tool within the step";
+    case Cause::energy_gained:
+      return "the time scheme has gained energy out of nothing";
     case Cause::stalled:
       return "the Newton iteration stalled";
   }

@@ -32,7 +32,10 @@ struct MarchOptions {
   bool line_search = true;
   bool watch_ways = true;     ///< reject a step over which a node goes through a tool (theory.md, eq. 4.19)
   bool watch_lag = true;      ///< probe lagging bounds that swing, and at the end, and give up where they feed back
-  std::vector<Real> stops{};  ///< times that a step must end at
+  Real energy_gain = 1e-3;  ///< with inertia: energy that the time scheme may gain over the largest of the work done and
+                            ///< the energy at the start (theory.md, eq. 7.16); beyond it the run warns [-]; 0: not looked at
+  bool refuse_energy_gain = false;  ///< ends the run there instead
+  std::vector<Real> stops{};        ///< times that a step must end at
 
   void validate(Real now) const {
     if (!(end > now) || !std::isfinite(end))
@@ -46,6 +49,7 @@ struct MarchOptions {
     if (!(time_tolerance >= 0)) throw std::invalid_argument("march: the time tolerance must not be negative");
     if (!(lag_tolerance >= 0)) throw std::invalid_argument("march: the lag tolerance must not be negative");
     if (!(step_tolerance >= 0)) throw std::invalid_argument("march: the step tolerance must not be negative");
+    if (!(energy_gain >= 0)) throw std::invalid_argument("march: the energy gain must not be negative");
     if (initial < 0 || largest < 0 || smallest < 0)
       throw std::invalid_argument("march: step sizes must not be negative");
   }
