@@ -30,15 +30,15 @@ struct PlaceVelocity {
 };
 
 /// Normal velocity of a pressed node after a step, against the tool (theory.md, eq. 7.13): where the step turned it
-/// round, the value between the one that the step left and its mean that has the least energy.
+/// round or more than doubled it, the value between the one that the step left and its mean that has the least energy.
 inline Real persistent(Real before, Real after, Real mean) {
-  if (!(before * after < 0)) return after;
+  if (!(2 * before * after < after * after)) return after;
   return std::clamp(Real(0), std::min(after, mean), std::max(after, mean));
 }
 /// The same of the tangential velocity of a sticking node: the shortest vector between the two (eq. 7.14).
 template <int dim>
 Vec<Real, dim> persistent(const Vec<Real, dim>& before, const Vec<Real, dim>& after, const Vec<Real, dim>& mean) {
-  if (!(contraction(before, after) < 0)) return after;
+  if (!(2 * contraction(before, after) < contraction(after, after))) return after;
   const Vec<Real, dim> way = minus(mean, after);
   const Real length2 = contraction(way, way);
   Vec<Real, dim> shortest = after;
