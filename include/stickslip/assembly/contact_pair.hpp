@@ -313,8 +313,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   }
 
   /// How far the last pass was from what another one would give: the largest gap of a pressed node, and the largest
-  /// reversible slide of a sticking one, over the distance of neighbouring nodes; and the lag of the bounds. In dynamics
-  /// a `motion` of the step takes that distance's place, within limits (theory.md, eq. 4.18a).
+  /// reversible slide of a sticking one, over the distance of neighbouring nodes; and the lag of the bounds. In
+  /// dynamics a `motion` of the step takes that distance's place, within limits (theory.md, eq. 4.18a).
   Real unsettled([[maybe_unused]] Real motion = std::numeric_limits<Real>::infinity()) const requires passes {
     Real largest = 0;
     if constexpr (is_augmented<Enforcement>)
@@ -343,8 +343,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   }
 
   /// Makes the velocities of pressed nodes persist in contact (theory.md, eq. 7.13, 7.14), after a step from the
-  /// converged displacements `from` and velocities `before` at the time `begin` to those of the last assembly, `to`, and
-  /// `velocity` at the time `end`.
+  /// converged displacements `from` and velocities `before` at the time `begin` to those of the last assembly, `to`,
+  /// and `velocity` at the time `end`.
   template <class MeshType>
   void persist(const MeshType& mesh, const Dofs& dofs, const Field& from, const Field& to, Real begin, Real end,
                const Field& before, Field& velocity) const {

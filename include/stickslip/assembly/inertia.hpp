@@ -89,8 +89,8 @@ class InertiaForcesOf {
   }
 
   /// Turns forces at the end of the step into the balance of the scheme (eq. 7.12): `smooth` are internal less external
-  /// forces; `balance` holds those of contact, and `matrix` their derivative and `body_share` times that of the internal
-  /// forces. These become residual and tangent.
+  /// forces; `balance` holds those of contact, and `matrix` their derivative and `body_share` times that of the
+  /// internal forces. These become residual and tangent.
   void apply(const Field& u, const Field& smooth, [[maybe_unused]] const Field& internal, Field& balance,
              Matrix& matrix) {
     const TimeScheme& s = policy_.scheme;
@@ -191,9 +191,7 @@ class InertiaForcesOf {
   void release(Mat<Real, nodes>& m, Index e, const ContactNodes& touches) requires with_contact {
     if (contact_mass_.size() == 0) contact_mass_.setZero(body_.mesh().node_count());
     const auto& cell = body_.mesh().cells[static_cast<std::size_t>(e)];
-    const auto touching = [&](int a) {
-      return touches[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])];
-    };
+    const auto touching = [&](int a) { return touches[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])]; };
     for (int a = 0; a < nodes; ++a) {
       if (!touching(a)) continue;
       for (int b = 0; b < nodes; ++b)

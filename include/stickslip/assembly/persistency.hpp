@@ -11,8 +11,8 @@
 
 namespace stickslip {
 
-/// Velocities of a place that is fixed to a tool, over a step: at its start and its end, to second order by the poses at
-/// both and halfway, and the mean. A tool that keeps its velocity has one.
+/// Velocities of a place that is fixed to a tool, over a step: at its start and its end, to second order by the poses
+/// at both and halfway, and the mean. A tool that keeps its velocity has one.
 template <int dim>
 struct PlaceVelocity {
   Vec<Real, dim> start, end, mean;

@@ -240,7 +240,8 @@ class System {
   /// With generalised-alpha it is that of the balance, between the start and the end of the step.
   Real reaction(Index component) const {
     Real force = balance_[component];
-    if constexpr (with_inertia && with_contact)  // a support takes contact's force itself, not its weight in the balance
+    if constexpr (with_inertia &&
+                  with_contact)  // a support takes contact's force itself, not its weight in the balance
       if (dofs_.equation(component) == Dofs::constrained) force -= (end_share() - 1) * contact_[component];
     return force;
   }
@@ -332,15 +333,15 @@ class System {
     });
   }
 
-  // Weight of the forces at the end of a step in the balance; with inertia, of those that `balance_` has before it, where
-  // those of the body are weighed already.
+  // Weight of the forces at the end of a step in the balance; with inertia, of those that `balance_` has before it,
+  // where those of the body are weighed already.
   Real end_share() const {
     if constexpr (with_inertia) return inertia_.contact_share();
     return 1;
   }
 
-  // Internal, contact and external forces by component, their balance and its derivative; with inertia, what its balance
-  // is made of (InertiaForces::apply).
+  // Internal, contact and external forces by component, their balance and its derivative; with inertia, what its
+  // balance is made of (InertiaForces::apply).
   Trouble assemble(const Field& u, Real time, Real dt, const Field* driven, Field* excess) {
     internal_.setZero();
     matrix_.set_zero();

@@ -9,8 +9,8 @@
 namespace stickslip {
 
 /// Damping in proportion to the stiffness: forces tau (G(u_{n+1}) - G(u_n)) / dt beside the internal ones G (theory.md,
-/// eq. 7.15). A vibration of angular frequency omega is damped by tau omega / 2 of critical; in plastic flow the elastic
-/// part of the strain rate alone is. For rotations that are small while the body is stressed.
+/// eq. 7.15). A vibration of angular frequency omega is damped by tau omega / 2 of critical; in plastic flow the
+/// elastic part of the strain rate alone is. For rotations that are small while the body is stressed.
 struct StiffnessDamping {
   using Role = role::Damping;
   static constexpr bool active = true;

@@ -43,7 +43,7 @@ BOOST_CLASS_TRACKING(stickslip::Section, boost::serialization::track_never)
 namespace stickslip::io {
 
 /// Of the format. It counts up whenever the sections of a march or what they mean change; other versions are refused.
-inline constexpr std::uint32_t checkpoint_version = 2;
+inline constexpr std::uint32_t checkpoint_version = 3;
 
 namespace detail {
 

@@ -203,8 +203,7 @@ concept Inertia = InertiaPolicy<typename Model::Inertia>;
 template <class Model>
 concept Damping = DampingPolicy<DampingOf<Model>>;
 template <class Model>
-concept DampingNeedsInertia =
-    !Inertia<Model> || !Damping<Model> || Model::Inertia::active || !DampingOf<Model>::active;
+concept DampingNeedsInertia = !Inertia<Model> || !Damping<Model> || Model::Inertia::active || !DampingOf<Model>::active;
 template <class Model>
 concept HasSymmetry = Kinematics<Model> && Material<Model> && Friction<Model> && Enforcement<Model>;
 template <class Model>
@@ -222,8 +221,8 @@ concept CorrectsCouplings = !HasSymmetry<Model> || !LinearSolver<Model> || !take
 template <class Model>
 inline constexpr bool valid_model = rule::Kinematics<Model>&& rule::Element<Model>&& rule::SameDimension<Model>&&
     rule::Material<Model>&& rule::Friction<Model>&& rule::Enforcement<Model>&& rule::FrictionNeedsContact<Model>&&
-        rule::DirectionsNeedSpace<Model>&& rule::Inertia<Model>&& rule::Damping<Model>&& rule::DampingNeedsInertia<Model>&&
-            rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>&& rule::CorrectsCouplings<Model>;
+        rule::DirectionsNeedSpace<Model>&& rule::Inertia<Model>&& rule::Damping<Model>&& rule::DampingNeedsInertia<
+            Model>&& rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>&& rule::CorrectsCouplings<Model>;
 
 /// Instantiate to have a bundle checked, one sentence for each rule.
 template <class Model>

@@ -26,7 +26,9 @@ struct Energies {
                          ///< steps; negative: what the time scheme has gained
 
   /// Work that cannot be accounted for: that of the residual which Newton's method has left.
-  Real unbalanced() const { return external - kinetic - elastic - plastic - penalty - friction - damping - algorithmic; }
+  Real unbalanced() const {
+    return external - kinetic - elastic - plastic - penalty - friction - damping - algorithmic;
+  }
 };
 
 /// Whether a bundle's material and enforcement tell their energies; those of a user may not.
@@ -35,9 +37,9 @@ concept TellsEnergies =
     requires(const typename Model::Material& material, const Tensor<Real, typename Model::Kinematics::Shape>& F,
              const typename Model::Material::template State<Real, typename Model::Kinematics::Shape>& state) {
   material.energy(F, state);
-} &&(!has_contact<Model> || requires(const typename Model::Enforcement& enforcement) {
-  enforcement.energy(Real(), Real());
-});
+}
+&&(!has_contact<Model> ||
+   requires(const typename Model::Enforcement& enforcement) { enforcement.energy(Real(), Real()); });
 
 /// The books of a run of a scene (theory.md, eq. 7.7): made before its first step, updated after every step. They cost
 /// a pass over the points a step.
@@ -67,7 +69,9 @@ class EnergyBooks {
     const Field du = scene_.displacement() - u_;
     Real old_share = 0.5;  // weight of the smooth forces at the start of the step
     if constexpr (has_inertia<Model>) old_share = scene_.inertia().scheme().alpha_f;
-    const auto mean = [&](const Field& old, const Field& now) { return Field(old_share * old + (1 - old_share) * now); };
+    const auto mean = [&](const Field& old, const Field& now) {
+      return Field(old_share * old + (1 - old_share) * now);
+    };
     const Energies old = energies_;
 
     // Work done on the body: supports by their reactions, loads, tools by the motion of their surface under the nodes.
@@ -148,12 +152,11 @@ class EnergyBooks {
   void read_state() {
     const auto& material = scene_.body().material();
     energies_.elastic = energies_.plastic = energies_.penalty = 0;
-    scene_.body().visit_points(scene_.displacement(),
-                               [&](Index, int, const auto& F, const auto& state, Real weight) {
-                                 energies_.elastic += weight * material.energy(F, state);
-                                 if constexpr (requires { material.plastic_work(state); })
-                                   energies_.plastic += weight * material.plastic_work(state);
-                               });
+    scene_.body().visit_points(scene_.displacement(), [&](Index, int, const auto& F, const auto& state, Real weight) {
+      energies_.elastic += weight * material.energy(F, state);
+      if constexpr (requires { material.plastic_work(state); })
+        energies_.plastic += weight * material.plastic_work(state);
+    });
     if constexpr (has_contact<Model>)
       scene_.visit_contacts([&](const auto& pair) { energies_.penalty += pair.stored_energy(); });
     if constexpr (has_inertia<Model>) energies_.kinetic = scene_.inertia().kinetic_energy();

@@ -30,10 +30,11 @@ struct MarchOptions {
   Index max_passes = 30;  ///< over a step
   Index space_every = 0;  ///< steps from one estimate of the mesh's error to the next; 0: none
   bool line_search = true;
-  bool watch_ways = true;     ///< reject a step over which a node goes through a tool (theory.md, eq. 4.19)
-  bool watch_lag = true;      ///< probe lagging bounds that swing, and at the end, and give up where they feed back
-  Real energy_gain = 1e-3;  ///< with inertia: energy that the time scheme may gain over the largest of the work done and
-                            ///< the energy at the start (theory.md, eq. 7.16); beyond it the run warns [-]; 0: not looked at
+  bool watch_ways = true;  ///< reject a step over which a node goes through a tool (theory.md, eq. 4.19)
+  bool watch_lag = true;   ///< probe lagging bounds that swing, and at the end, and give up where they feed back
+  Real energy_gain =
+      1e-3;  ///< with inertia: energy that the time scheme may gain over the largest of the work done and
+             ///< the energy at the start (theory.md, eq. 7.16); beyond it the run warns [-]; 0: not looked at
   bool refuse_energy_gain = false;  ///< ends the run there instead
   std::vector<Real> stops{};        ///< times that a step must end at
 
