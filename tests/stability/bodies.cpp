@@ -676,7 +676,7 @@ const Hard flutters(
         s.density = 1000;
         s.radius = 1;
         for (const char* side : {"top", "bottom"}) {
-          const auto on = [](Real t) { return 0.5 * std::min(1.0, 4 * t * t) * weight; };
+          const auto on = [=](Real t) { return 0.5 * std::min(1.0, 4 * t * t) * weight; };
           s.loads.push_back({side, 1, [=](Real t) { return -cosine * on(t); }});
           s.loads.push_back({side, 0, [=](Real t) { return sine * on(t); }});
         }
