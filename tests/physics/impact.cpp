@@ -383,7 +383,7 @@ TEST_CASE("a restart in contact continues bit for bit") {
   auto restored = again->march(options);
   kept.restore(restored);
   REQUIRE(restored.finish());
-  CHECK(restored.report().steps == 80);
+  CHECK(restored.report().steps == march.report().steps);
   CHECK((again->displacement().array() == whole->displacement().array()).all());
   CHECK((again->inertia().velocity().array() == whole->inertia().velocity().array()).all());
 }
