@@ -5,11 +5,14 @@
 #include <stickslip/mesh/coincident_nodes.hpp>
 #include <stickslip/scene.hpp>
 #include <stickslip/solve/course.hpp>
+#include <stickslip/solve/energy_books.hpp>
 #include <stickslip/solve/newton.hpp>
 
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -72,6 +75,7 @@ class March : public Course {
   void advance();
   Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
   bool feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact);
+  void watch_energy(const StepReport& step);
   void retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model>;
 
   // Whether Newton's method went astray, at forces that could all be evaluated.
@@ -91,6 +95,10 @@ class March : public Course {
   Newton<SolverOf<Model>, has_near_tangent<Model>()> newton_;
   Field trial_, driven_, pass_start_;
   std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
+  static constexpr bool keeps_books = has_inertia<Model> && TellsEnergies<Mechanical>;
+  using Books = std::optional<EnergyBooks<Mechanical, Scene<Mechanical>>>;
+  [[no_unique_address]] Only<keeps_books, Books, March> books_;  // to see what the time scheme gains
+  [[no_unique_address]] Only<keeps_books, std::string, Books> gained_;
 };
 
 namespace detail {
@@ -147,6 +155,8 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
       if (const std::string text = pair.warning_of_size(); !text.empty())
         now_.warnings.add("tool_smaller_than_mesh", pair.name(), text, 0);
     });
+  if constexpr (keeps_books)
+    if (options.energy_gain > 0) books_.emplace(problem_);
 }
 
 /// Passes over a step whose first one has converged, until another one would change nothing beyond the tolerance
@@ -158,7 +168,8 @@ Index March<Model>::pass_again([[maybe_unused]] Field& u, [[maybe_unused]] Real 
   if constexpr (takes_passes<Model>()) {
     System<Mechanical>& system = *problem_.system_;
     Real before = 0;
-    for (Real now = system.unsettled(); now > options_.pass_tolerance; now = system.unsettled()) {
+    const auto unsettled = [&] { return system.unsettled(problem_.u_, u, problem_.time_, time); };
+    for (Real now = unsettled(); now > options_.pass_tolerance; now = unsettled()) {
       if (passes == options_.max_passes) {
         newton.trouble = {Cause::passes_failed, {}};
         break;
@@ -229,6 +240,24 @@ void March<Model>::retry(Field& u, Real time, Real dt, NewtonReport& newton) req
   newton = again;
 }
 
+/// Warns where the time scheme has gained energy (theory.md, eq. 7.16).
+template <class Model>
+void March<Model>::watch_energy([[maybe_unused]] const StepReport& step) {
+  if constexpr (keeps_books) {
+    if (!books_) return;
+    books_->update(step);
+    const Real gain = books_->gain();
+    if (!(gain > options_.energy_gain)) return;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "the time scheme has gained %.2g of the largest of the work done and the energy at the start; take "
+                  "smaller steps, or a spectral radius below 1",
+                  gain);
+    gained_ = text;
+    warn("energy_gained", "", text);
+  }
+}
+
 template <class Model>
 void March<Model>::serialize(Archive& archive) {
   problem_.prepare();
@@ -238,6 +267,11 @@ void March<Model>::serialize(Archive& archive) {
   newton_.serialize(archive, *problem_.system_);
   now_.work = newton_.counts;
   Course::serialize(archive);
+  if constexpr (keeps_books)
+    if (books_) {
+      books_->serialize(archive, "run, books");
+      if (archive.gives()) gained_.clear();
+    }
   if (!archive.gives()) return;
   newton_.counts = now_.work;
   problem_.system_->timings = now_.report.timings;
@@ -245,6 +279,11 @@ void March<Model>::serialize(Archive& archive) {
 
 template <class Model>
 void March<Model>::advance() {
+  if constexpr (keeps_books)
+    if (options_.refuse_energy_gain && outcome_ && !gained_.empty()) {
+      before_ = now_;
+      return fail({Cause::energy_gained, {}}, problem_.time_, now_.step.dt, 0, gained_);
+    }
   if (!begin_step(newton_.counts)) return;
   require_own();
   problem_.prepare();  // supports and loads may have changed since the last step
@@ -302,7 +341,7 @@ void March<Model>::advance() {
     tally(passes, newton.iterations, newton_.counts, system.timings);
     Real local_error = 0, error = 0;
     if constexpr (has_inertia<Model>) {
-      if (!newton.trouble) local_error = problem_.inertia_->local_error();
+      if (!newton.trouble) local_error = system.local_error();
       if (options_.time_tolerance > 0) error = local_error / options_.time_tolerance;
       if (error > 2 && options_.steps == 0) {
         now_.control.reject(time, error);
@@ -351,6 +390,7 @@ void March<Model>::advance() {
         stress_->update(problem_.body_, u);
         step.errors.space = stress_->relative();
       }
+      watch_energy(step);
       return book(step);
     }
     give_up();

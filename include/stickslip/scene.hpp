@@ -34,6 +34,7 @@ class Scene {
     [[no_unique_address]] typename Model::Kinematics kinematics{};
     typename Model::Material material{};
     [[no_unique_address]] typename Model::Inertia inertia{};
+    [[no_unique_address]] DampingOf<Model> damping{};
     [[no_unique_address]] Only<with_contact, Contacts<Model>, Scene> contacts{};
   };
 
@@ -41,7 +42,8 @@ class Scene {
   explicit Scene(Parameters parameters)
       : body_(std::move(parameters.body), validated(parameters.kinematics), validated(parameters.material)) {
     if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
-    if constexpr (has_inertia<Model>) inertia_.emplace(body_, validated(parameters.inertia));
+    if constexpr (has_inertia<Model>)
+      inertia_.emplace(body_, validated(parameters.inertia), validated(parameters.damping), contact_nodes());
     u_.setZero(body_.mesh().node_count() * dim);
     last_increment_ = reactions_ = u_;
     if constexpr (has_inertia<Model>) increment_before_ = u_;
@@ -210,7 +212,7 @@ class Scene {
   }
   // Makes the state of the last evaluation, at the displacements u, the converged one.
   void accept(const Field& u, Real time, Real dt) {
-    system_->commit();
+    system_->commit(u, time, dt);
     if constexpr (has_inertia<Model>) {
       increment_before_.swap(last_increment_);
       increment_before_dt_ = last_dt_;
@@ -233,6 +235,7 @@ class Scene {
     archive.same("enforcement", type_name<typename Model::Enforcement>());
     if constexpr (with_contact) archive.same("tool", type_name<ToolOf<Model>>());
     archive.same("inertia", type_name<typename Model::Inertia>());
+    archive.same("damping", type_name<DampingOf<Model>>());
     archive.same("mesh", describe(body_.mesh()));
     archive.same("supports", system_->dofs().describe());
     archive("displacement", u_);
@@ -270,6 +273,16 @@ class Scene {
       (add_contacts(std::get<i>(contacts), std::get<i>(pairs)), ...);
     }
     (std::index_sequence_for<Frictions...>());
+  }
+
+  // The nodes of contact sides, by number.
+  std::vector<bool> contact_nodes() const {
+    std::vector<bool> touches(static_cast<std::size_t>(body_.mesh().node_count()), false);
+    if constexpr (with_contact)
+      visit_contacts([&](const auto& pair) {
+        for (const Index n : pair.nodes()) touches[static_cast<std::size_t>(n)] = true;
+      });
+    return touches;
   }
 
   template <class P>

@@ -153,7 +153,7 @@ TEST_CASE("an elastic block rebounds from a rigid wall and the books close") {
          .inertia = {.density = 1, .scheme = chung_hulbert(radius)},
          .contacts = {{.side = "bottom", .tool = rigid::line({0, -0.05}, {1, 0}), .enforcement = {.normal = 2e3}}}}};
     block.start_velocity({0, -1});
-    auto march = block.march({.end = 0.4, .steps = 800, .tolerance = 1e-11});
+    auto march = block.march({.end = 0.4, .steps = 1600, .tolerance = 1e-11});
     verify::EnergyLedger<Landing> ledger(block);
     bool touched = false;
     for (const StepReport& step : march) {

@@ -2,6 +2,7 @@
 #include "../physics/scene.hpp"
 #include "play.hpp"
 
+#include <stickslip/enforcement/augmented_lagrangian.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/linear_solver/eigen_lu.hpp>
 
@@ -32,6 +33,13 @@ const std::vector<Bundle>& moving() {
       {"dynamics, QuasiCoulomb, EigenLdlt", play<Moving<EigenLdlt, QuasiCoulomb, Hencky, PlaneStrain>>, true},
   };
   return all;
+}
+struct Ringing : Moving<EigenLdlt, Frictionless, Hencky, PlaneStrain> {
+  using Enforcement = AugmentedLagrangian;
+};
+const Bundle& ringing() {
+  static const Bundle one{"dynamics, frictionless, multipliers, EigenLdlt", play<Ringing>, false, true};
+  return one;
 }
 const Bundle& tube() {
   static const Bundle one{"axisymmetric J2 dynamics, QuasiCoulomb, EigenLdlt",

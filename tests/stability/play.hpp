@@ -10,6 +10,8 @@
 #include <stickslip/problem.hpp>
 #include <stickslip/verify/energy.hpp>
 
+#include <optional>
+
 namespace stability {
 
 template <int dim>
@@ -33,6 +35,7 @@ struct SceneryOf {
   std::vector<SideValue> driven{}, loads{};
   std::vector<MarchOptions> marches{};  ///< one after the other, whatever becomes of them
   Real density = 1, radius = 0.5;       ///< spectral radius of the time scheme
+  std::optional<TimeScheme> scheme{};   ///< instead
   std::function<Vec<Real, dim>(const Vec<Real, dim>&)> velocity{};
 };
 
@@ -60,7 +63,8 @@ struct PlayedOf {
   std::vector<ContactNodeState<dim>> nodes;  ///< of the first contact
   verify::Energies energies;
   Real time = 0, plastic = 0;
-  Real unbalanced = 0;  ///< largest defect of the energy books over the largest amount in them
+  std::vector<Warning> warnings{};  ///< of all marches
+  Real unbalanced = 0;              ///< largest defect of the energy books over the largest amount in them
 
   const Outcome& outcome() const { return outcomes.back(); }
 };
@@ -87,6 +91,7 @@ const Bundle& smooth();               ///< frictionless, elastic
 const Bundle& metal();                ///< J2, linear hardening, Quasi-Coulomb, plane strain
 const std::vector<Bundle>& sheets();  ///< J2, power hardening, axisymmetric: laws
 const std::vector<Bundle>& moving();  ///< elastic with inertia: laws
+const Bundle& ringing();              ///< frictionless, elastic with inertia, multipliers
 const Bundle& tube();                 ///< J2, axisymmetric with inertia
 
 namespace space {
@@ -144,7 +149,7 @@ PlayedOf<dim> play(const SceneryOf<dim>& scenery, const LookOf<dim>& look) {
   }
   if constexpr (has_inertia<M>) {
     parameters.inertia.density = scenery.density;
-    parameters.inertia.scheme = chung_hulbert(scenery.radius);
+    parameters.inertia.scheme = scenery.scheme.value_or(chung_hulbert(scenery.radius));
   }
   if constexpr (has_contact<M>)
     for (const TouchOf<dim>& t : scenery.contacts) {
@@ -185,6 +190,7 @@ PlayedOf<dim> play(const SceneryOf<dim>& scenery, const LookOf<dim>& look) {
       if (look) look({step, problem.displacement(), records, reaction, e});
     }
     out.outcomes.push_back(march.outcome());
+    out.warnings.insert(out.warnings.end(), march.warnings().begin(), march.warnings().end());
     out.report.steps += march.report().steps;
     out.report.iterations += march.report().iterations;
     out.report.rejected_steps += march.report().rejected_steps;

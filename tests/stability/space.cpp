@@ -1110,7 +1110,7 @@ void drops(Case& c, Index count, Real mu) {
     });
     c.require(hits > 2, b.name + ": it rebounds");
     c.note(b.name + ": " + std::to_string(hits) + " hits");
-    c.require(gained < 0.01 * amount, b.name + ": energy out of nothing, " + Case::number(gained / amount));
+    c.require(gained < 1e-3 * amount, b.name + ": energy out of nothing, " + Case::number(gained / amount));
     if (mu == 0) c.small(aside, 1e-8, b.name + ": momentum along the floor");
   }
 }

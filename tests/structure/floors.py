@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-MODELS = {"kinematics", "element", "material", "friction", "enforcement", "inertia", "linear_solver"}
+MODELS = {"kinematics", "element", "material", "friction", "enforcement", "inertia", "damping", "linear_solver"}
 FLOORS = [
     {"base"},
     {"tensor"},

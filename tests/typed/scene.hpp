@@ -29,7 +29,6 @@ struct Answer {
   std::vector<Step> steps;
   Index rejected = 0;
   Field u;
-  Real alpha_f = 0;
   Real asymmetry = 0;  // largest of the steps' matrices, over the largest entry; of a triangle 0
   Real plastic_strain = 0;
 };
@@ -123,7 +122,6 @@ Answer press_and_drag() {
   Field acceleration;
   if constexpr (has_inertia<Model>) {
     acceleration = problem.inertia().acceleration();
-    answer.alpha_f = problem.inertia().scheme().alpha_f;
   }
   for (const StepReport& report : march) {
     Step& step = answer.steps.emplace_back();
@@ -139,6 +137,11 @@ Answer press_and_drag() {
       problem.inertia().add_product(
           between(acceleration, problem.inertia().acceleration(), 1 - problem.inertia().scheme().alpha_m), force);
       acceleration = problem.inertia().acceleration();
+      // The accelerations are those of the smooth forces; contact changes the momentum of free components by itself.
+      const auto& system = problem.system();
+      if constexpr (has_contact<Model>)
+        for (Index c = 0; c < force.size(); ++c)
+          if (system.dofs().equation(c) != Dofs::constrained) force[c] -= system.contact()[c];
       step.momentum = total(force, dim);
     }
   }

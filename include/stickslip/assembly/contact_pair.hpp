@@ -7,6 +7,7 @@
 #include <stickslip/assembly/facet.hpp>
 #include <stickslip/assembly/followed_slide.hpp>
 #include <stickslip/assembly/node_couplings.hpp>
+#include <stickslip/assembly/persistency.hpp>
 #include <stickslip/assembly/sparse_matrix.hpp>
 #include <stickslip/base/brief.hpp>
 #include <stickslip/base/nodal.hpp>
@@ -458,23 +459,69 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   }
 
   /// How far the last pass was from what another one would give: the largest gap of a pressed node, and the largest
-  /// reversible slide of a sticking one, over the distance of neighbouring nodes; and the lag of the bounds.
-  Real unsettled() const requires passes {
+  /// reversible slide of a sticking one, over the distance of neighbouring nodes; and the lag of the bounds. In
+  /// dynamics a `motion` of the step takes that distance's place, within limits (theory.md, eq. 4.18a).
+  Real unsettled([[maybe_unused]] Real motion = std::numeric_limits<Real>::infinity()) const requires passes {
     Real largest = 0;
     if constexpr (is_augmented<Enforcement>)
       for (std::size_t k = 0; k < nodes_.size(); ++k) {
         const ContactNodeState<dim>& state = trial_states_[k];
         if (!state.touching) continue;
-        largest = std::max(largest, std::abs(state.gap) / spacing_[k]);
+        const Real length = std::clamp(100 * motion, 0.01 * spacing_[k], spacing_[k]);
+        largest = std::max(largest, std::abs(state.gap) / length);
         if constexpr (with_friction)
           if (!state.sliding)
             largest = std::max(largest, (trial_[k].friction.traction - renewed_[k].friction.traction).norm() /
-                                            (enforcement_.stick_stiffness(weight_[k]) * spacing_[k]));
+                                            (enforcement_.stick_stiffness(weight_[k]) * length));
       }
     if constexpr (iterates)
       if (trial_summary_.bound > 0) largest = std::max(largest, trial_summary_.lag / trial_summary_.bound);
     return largest;
   }
+  /// Largest motion of a node against the tool between two states [length].
+  template <class MeshType>
+  Real largest_motion(const MeshType& mesh, const Field& from, const Field& to, Real begin, Real end) const {
+    const rigid::Pose<dim> before = motion_.at(begin), after = motion_.at(end);
+    Real largest = 0;
+    for (const Index n : nodes_)
+      largest = std::max(largest, minus(on_tool(mesh, to, after, n), on_tool(mesh, from, before, n)).norm());
+    return largest;
+  }
+
+  /// Makes the velocities of pressed nodes persist in contact (theory.md, eq. 7.13, 7.14), after a step from the
+  /// converged displacements `from` and velocities `before` at the time `begin` to those of the last assembly, `to`,
+  /// and `velocity` at the time `end`.
+  template <class MeshType>
+  void persist(const MeshType& mesh, const Dofs& dofs, const Field& from, const Field& to, Real begin, Real end,
+               const Field& before, Field& velocity) const {
+    const std::array<rigid::Pose<dim>, 3> poses{motion_.at(begin), motion_.at(0.5 * (begin + end)), motion_.at(end)};
+    const Real dt = end - begin;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (!(trial_states_[k].pressure > 0)) continue;
+      const Index n = nodes_[k];
+      const Vec<Real, dim> y = on_tool(mesh, to, poses[2], n);
+      const Vec<Real, dim> normal = product(poses[2].rotation, distance_to<Real, dim>(tool_, y).normal);
+      const PlaceVelocity<dim> tool(poses, y, dt);
+      const Vec<Real, dim> v0 = minus(at_node<dim>(before, n), tool.start),
+                           v1 = minus(at_node<dim>(velocity, n), tool.end);
+      const Real left = contraction(normal, v1);
+      const Real kept = persistent(contraction(normal, v0), left, (trial_states_[k].gap - states_[k].gap) / dt);
+      if (kept != left) push<dim>(velocity, dofs, n, normal, kept - left);
+      if constexpr (with_friction)
+        if (!trial_states_[k].sliding) {
+          Vec<Real, dim> mean = minus(at_node<dim>(to, n), at_node<dim>(from, n));
+          mean /= dt;
+          const auto along = [&](const Vec<Real, dim>& v) {
+            return Vec<Real, dim>(minus(v, scaled(normal, contraction(normal, v))));
+          };
+          const Vec<Real, dim> t1 = along(v1);
+          const Vec<Real, dim> change = minus(persistent<dim>(along(v0), t1, along(minus(mean, tool.mean))), t1);
+          const Real amount = change.norm();
+          if (amount > 0) push<dim>(velocity, dofs, n, scaled(change, 1 / amount), amount);
+        }
+    }
+  }
+
   /// Stiffens the enforcement, where the passes do not settle quickly enough.
   void stiffen(Real factor) requires(is_augmented<Enforcement>) {
     for (Real& w : weight_) w *= factor;

@@ -12,17 +12,25 @@
 
 namespace stickslip {
 
-/// Mass, velocity and acceleration of a body, and the weights of its time scheme (theory.md, section 7). Exists only in
-/// bundles with inertia.
-template <class BodyType, class Policy>
+/// Mass, velocity and acceleration of a body, its damping, and the weights of its time scheme (theory.md, section 7).
+/// Exists only in bundles with inertia. Forces are of two kinds: smooth ones, of the body and of loads, which are
+/// averaged over a step and make the acceleration; and those of contact, which are impulses at its end and stay out of
+/// it (eq. 7.11, 7.12).
+template <class BodyType, class Policy, class Damping, bool with_contact>
 class InertiaForcesOf {
  public:
   using Matrix = typename BodyType::Matrix;
   using Element = typename BodyType::Element;
   static constexpr int dim = BodyType::dim;
   static constexpr int nodes = Element::nodes;
+  static constexpr bool damped = Damping::active;
+  /// Whether the matrix of the body has a weight of its own.
+  static constexpr bool weighs_body = with_contact || damped;
+  /// The nodes of contact sides: true where a node is one.
+  using ContactNodes = std::vector<bool>;
 
-  InertiaForcesOf(const BodyType& body, const Policy& policy) : body_(body), policy_(policy) {
+  InertiaForcesOf(const BodyType& body, const Policy& policy, const Damping& damping, const ContactNodes& touches)
+      : body_(body), policy_(policy), damping_(damping) {
     const auto rule = Element::Cell::quadrature();
     mass_.reserve(body.mesh().cells.size());
     for (Index e = 0; e < body.mesh().cell_count(); ++e) {
@@ -35,11 +43,13 @@ class InertiaForcesOf {
         for (int a = 0; a < nodes; ++a)
           for (int b = 0; b < nodes; ++b)
             if (a != b) m(a, a) += std::exchange(m(a, b), 0.0);
+      if constexpr (with_contact) release(m, e, touches);
       mass_.push_back(m);
     }
     const Index components = body.mesh().node_count() * dim;
     for (Field* f : {&velocity_, &acceleration_, &start_, &old_forces_, &force_, &trial_acceleration_, &work_})
       f->setZero(components);
+    if constexpr (damped) old_internal_.setZero(components);
   }
 
   /// Makes the mass matrix in the pattern of the system's.
@@ -65,16 +75,17 @@ class InertiaForcesOf {
   /// Displacements after dt at the acceleration of the start: the guess of the step.
   void predict(Field& u) const { u = start_ + dt_ * velocity_ + 0.5 * dt_ * dt_ * acceleration_; }
 
-  /// Turns forces at the end of the step into the balance of the scheme: `forces` (internal + contact - external, by
-  /// component) and `matrix` (their derivative) become the generalised-alpha residual and tangent (eq. 7.3, 7.5).
-  void apply(const Field& u, const Field& forces, Field& balance, Matrix& matrix) {
-    const TimeScheme& s = policy_.scheme;
-    force_ = forces;
-    trial_acceleration_ = (u - start_ - dt_ * velocity_) / (s.beta * dt_ * dt_) - (0.5 / s.beta - 1) * acceleration_;
-    work_ = (1 - s.alpha_m) * trial_acceleration_ + s.alpha_m * acceleration_;
-    balance = (1 - s.alpha_f) * forces + s.alpha_f * old_forces_;
-    add_product(work_, balance);
-    matrix.combine(1 - s.alpha_f, matrix_, (1 - s.alpha_m) / (s.beta * dt_ * dt_));
+  /// Weight omega of the forces of contact at the end of a step in the balance (eq. 7.12); without contact that of the
+  /// body's.
+  Real contact_share() const {
+    if constexpr (with_contact) return (1 - policy_.scheme.alpha_m) / (2 * policy_.scheme.beta);
+    return 1 - policy_.scheme.alpha_f;
+  }
+  /// Weight of the derivative of the internal forces over that of contact forces.
+  Real body_share() const {
+    Real weight = 1 - policy_.scheme.alpha_f;
+    if constexpr (damped) weight += damping_.tau / dt_;
+    return weight / contact_share();
   }
 
   /// Largest entry of what `apply` adds to the tangent [force / length].
@@ -82,22 +93,52 @@ class InertiaForcesOf {
     return (1 - policy_.scheme.alpha_m) / (policy_.scheme.beta * dt_ * dt_) * matrix_.largest();
   }
 
-  /// Makes the state of the last `apply` the converged one.
-  void commit() {
+  /// Turns forces at the end of the step into the balance of the scheme (eq. 7.12): `smooth` are internal less external
+  /// forces; `balance` holds those of contact, and `matrix` their derivative and `body_share` times that of the
+  /// internal forces. These become residual and tangent.
+  void apply(const Field& u, const Field& smooth, [[maybe_unused]] const Field& internal, Field& balance,
+             Matrix& matrix) {
     const TimeScheme& s = policy_.scheme;
+    force_ = smooth;
+    trial_acceleration_ = (u - start_ - dt_ * velocity_) / (s.beta * dt_ * dt_) - (0.5 / s.beta - 1) * acceleration_;
+    work_ = (1 - s.alpha_m) * trial_acceleration_ + s.alpha_m * acceleration_;
+    balance = contact_share() * balance + (1 - s.alpha_f) * smooth + s.alpha_f * old_forces_;
+    if constexpr (damped) balance += damping_.tau / dt_ * (internal - old_internal_);  // (7.15)
+    add_product(work_, balance);
+    matrix.combine(contact_share(), matrix_, (1 - s.alpha_m) / (s.beta * dt_ * dt_));
+  }
+
+  /// Makes the state of the last `apply`, at the displacements u, the converged one. Free nodes of contact sides take
+  /// the impulse of the forces `contact` as a change of their velocity, and none of it as acceleration (eq. 7.11).
+  void commit([[maybe_unused]] const Dofs& dofs, [[maybe_unused]] const Field& u,
+              [[maybe_unused]] const Field& internal, [[maybe_unused]] const Field& contact) {
+    const TimeScheme& s = policy_.scheme;
+    if constexpr (damped) {
+      dissipated_ = damping_.tau / dt_ * (internal - old_internal_).dot(u - start_);
+      old_internal_ = internal;
+    }
+    if constexpr (with_contact) {
+      work_ = velocity_;
+      for_each_impulse(dofs, contact, [&](Index component, Real c) {
+        trial_acceleration_[component] += c / (2 * s.beta);
+        velocity_[component] -= dt_ * c;
+      });
+    }
     velocity_ += dt_ * ((1 - s.gamma) * acceleration_ + s.gamma * trial_acceleration_);
     acceleration_.swap(trial_acceleration_);
     old_forces_.swap(force_);
   }
 
-  /// Consistent start: accelerations that balance `forces` at the lumped mass; constrained components start with none.
-  void start(const Dofs& dofs, const Field& forces) {
-    old_forces_ = forces;
+  /// Consistent start: accelerations that balance the smooth forces at the lumped mass; constrained components start
+  /// with none.
+  void start(const Dofs& dofs, const Field& smooth, [[maybe_unused]] const Field& internal) {
+    old_forces_ = smooth;
+    if constexpr (damped) old_internal_ = internal;
     work_.setOnes();
     Field lumped = Field::Zero(work_.size());
     add_product(work_, lumped);
     for (Index c = 0; c < dofs.components(); ++c)
-      acceleration_[c] = dofs.equation(c) == Dofs::constrained ? 0 : -forces[c] / lumped[c];
+      acceleration_[c] = dofs.equation(c) == Dofs::constrained ? 0 : -smooth[c] / lumped[c];
   }
 
   /// target += M field.
@@ -114,11 +155,15 @@ class InertiaForcesOf {
   }
 
   /// Local error of the last converged step by component: (beta - 1/6) dt^2 (a_{n+1} - a_n) (eq. 7.8), its largest norm
-  /// over the nodes [length]. Call it after `apply`, before `commit`.
-  Real local_error() const {
+  /// over the nodes [length]; the impulses of `contact` are no error of the motion between them. Call it after `apply`,
+  /// before `commit`.
+  Real local_error([[maybe_unused]] const Dofs& dofs, [[maybe_unused]] const Field& contact) {
+    work_ = trial_acceleration_ - acceleration_;
+    if constexpr (with_contact)
+      for_each_impulse(dofs, contact,
+                       [&](Index component, Real c) { work_[component] += c / (2 * policy_.scheme.beta); });
     Real largest = 0;
-    for (Index n = 0; n < body_.mesh().node_count(); ++n)
-      largest = std::max(largest, minus(at_node<dim>(trial_acceleration_, n), at_node<dim>(acceleration_, n)).norm());
+    for (Index n = 0; n < body_.mesh().node_count(); ++n) largest = std::max(largest, at_node<dim>(work_, n).norm());
     return std::abs(policy_.scheme.beta - Real(1) / 6) * dt_ * dt_ * largest;
   }
 
@@ -126,7 +171,8 @@ class InertiaForcesOf {
   void serialize(Archive& archive) {
     archive("velocity", velocity_);
     archive("acceleration", acceleration_);
-    archive("forces at the last step", old_forces_);
+    archive("smooth forces at the last step", old_forces_);
+    if constexpr (damped) archive("internal forces at the last step", old_internal_);
   }
 
   Real kinetic_energy() const {
@@ -139,17 +185,53 @@ class InertiaForcesOf {
   const Field& acceleration() const { return acceleration_; }
   const TimeScheme& scheme() const { return policy_.scheme; }
 
+  /// Displacements at the start of the step that was committed last, and until the next begins the velocities there.
+  const Field& start_of_step() const { return start_; }
+  const Field& velocity_before() const requires with_contact { return work_; }
+  /// What damping has taken in that step [energy].
+  Real dissipated() const requires damped { return dissipated_; }
+
  private:
+  // Lumps the rows of contact nodes (eq. 7.10): an impulse at one stays there. Adds to the nodes' own masses.
+  void release(Mat<Real, nodes>& m, Index e, const ContactNodes& touches) requires with_contact {
+    if (contact_mass_.size() == 0) contact_mass_.setZero(body_.mesh().node_count());
+    const auto& cell = body_.mesh().cells[static_cast<std::size_t>(e)];
+    const auto touching = [&](int a) { return touches[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])]; };
+    for (int a = 0; a < nodes; ++a) {
+      if (!touching(a)) continue;
+      for (int b = 0; b < nodes; ++b)
+        if (a != b) {
+          m(a, a) += std::exchange(m(a, b), 0.0);
+          m(b, b) += std::exchange(m(b, a), 0.0);
+        }
+    }
+    for (int a = 0; a < nodes; ++a)
+      if (touching(a)) contact_mass_[cell[static_cast<std::size_t>(a)]] += m(a, a);
+  }
+
+  // Calls visit(component, c) for the free components of contact nodes, c = force / mass of the node.
+  template <class Visit>
+  void for_each_impulse(const Dofs& dofs, const Field& contact, Visit&& visit) const requires with_contact {
+    for (Index n = 0; n < contact_mass_.size(); ++n)
+      if (contact_mass_[n] > 0)
+        for (Index k = n * dim; k < (n + 1) * dim; ++k)
+          if (contact[k] != 0 && dofs.equation(k) != Dofs::constrained) visit(k, contact[k] / contact_mass_[n]);
+  }
+
   const BodyType& body_;
   Policy policy_;
+  [[no_unique_address]] Damping damping_;
   std::vector<Mat<Real, nodes>> mass_;  // of an element, between nodes: the same for every component
   Matrix matrix_;
   Field velocity_, acceleration_, start_, old_forces_, force_, trial_acceleration_, work_;
+  [[no_unique_address]] Only<with_contact, Field, BodyType> contact_mass_;  // by node: m_c, 0 off contact sides
+  [[no_unique_address]] Only<damped, Field, Policy> old_internal_;
+  [[no_unique_address]] Only<damped, Real, Matrix> dissipated_{};
   Real dt_ = 0;
 };
 
-/// The inertia of a bundle; bundles that differ in contact or solver share it.
+/// The inertia of a bundle; bundles that differ in friction or solver share it.
 template <class Model>
-using InertiaForces = InertiaForcesOf<Body<Model>, typename Model::Inertia>;
+using InertiaForces = InertiaForcesOf<Body<Model>, typename Model::Inertia, DampingOf<Model>, has_contact<Model>>;
 
 }  // namespace stickslip

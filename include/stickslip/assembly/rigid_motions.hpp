@@ -32,6 +32,13 @@ class RigidMotions {
       part(n).extent = std::max(part(n).extent, minus(X(n), part(n).centre).norm());
   }
 
+  /// Largest distance of a node from the centre of its part [length].
+  Real extent() const {
+    Real largest = 0;
+    for (const OfPart& of : of_) largest = std::max(largest, of.extent);
+    return largest;
+  }
+
   /// Takes what resists them at the displacements u: the supports, and the matrix K.
   void take(const Field& u, const Dofs& dofs, const SparseView& matrix) {
     u_ = u;

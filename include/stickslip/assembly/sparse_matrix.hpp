@@ -47,6 +47,9 @@ class SparseMatrix {
   void combine(Real factor, const SparseMatrix& other, Real other_factor) {
     for (std::size_t k = 0; k < values_.size(); ++k) values_[k] = factor * values_[k] + other_factor * other.values_[k];
   }
+  void scale(Real factor) {
+    for (Real& v : values_) v *= factor;
+  }
   /// Largest magnitude of an entry.
   Real largest() const {
     Real m = 0;

@@ -59,6 +59,7 @@ class System {
 
   static constexpr bool with_inertia = has_inertia<Model>;
   using Inertia = Only<with_inertia, InertiaForces<Model>, Body<Model>>;
+  static constexpr bool weighs_body = with_inertia && (with_contact || has_damping<Model>);
 
   /// `revision` tells systems of one scene apart, for those who keep what they made of its pattern.
   System(BodyType& body, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
@@ -118,11 +119,12 @@ class System {
   Trouble iterate(const Field& u, Real time, Real dt, const Field* driven = nullptr) {
     excess_.setZero();
     if (const Trouble t = evaluate(u, time, dt, driven, &excess_)) return t;
-    const Real share = static_share();
+    const Real share = end_share();
     dofs_.gather(excess_, open_);
     open_ = residual_ - share * open_;
     const Real imbalance = open_.norm();
     Real openness = body_.openness();
+    if constexpr (weighs_body) openness *= std::pow(inertia_.body_share(), 2);
     if constexpr (with_contact) for_each_contact(pairs_, [&](const auto& pair) { openness += pair.openness(); });
     norm_ = std::max({norm_, imbalance, share * excess_.norm()});
     merit_ = std::hypot(imbalance, share * std::sqrt(openness));
@@ -152,9 +154,12 @@ class System {
   /// Gives the body the accelerations that balance the forces at the start of a run.
   Trouble start(const Field& u, Real time) requires with_inertia {
     if (const Trouble t = assemble(u, time, 0, nullptr, nullptr)) return t;
-    inertia_.start(dofs_, balance_);
+    smooth_ = internal_ - external_;
+    inertia_.start(dofs_, smooth_, internal_);
     return {};
   }
+  /// Local error of the time scheme in the step that the last evaluation converged in (theory.md, eq. 7.8) [length].
+  Real local_error() requires with_inertia { return inertia_.local_error(dofs_, contact_); }
 
   /// Goes back to the converged state's multipliers and bounds, after passes that are given up.
   void begin_passes() requires(with_passes || with_lag) {
@@ -207,10 +212,17 @@ class System {
   void renew() requires with_passes {
     for_each_pass([](auto& pair) { pair.renew(); });
   }
-  /// How far the last pass was from what another one would give [-]; see ContactPair.
-  Real unsettled() requires with_passes {
+  /// How far the last pass was from what another one would give [-]; see ContactPair. It leads from the converged
+  /// displacements `from` at the time `begin` to `to` at the time `end`.
+  Real unsettled([[maybe_unused]] const Field& from, [[maybe_unused]] const Field& to, [[maybe_unused]] Real begin,
+                 [[maybe_unused]] Real end) requires with_passes {
     Real largest = 0;
-    for_each_pass([&](auto& pair) { largest = std::max(largest, pair.unsettled()); });
+    for_each_pass([&](auto& pair) {
+      if constexpr (with_inertia && is_augmented<typename Model::Enforcement>)
+        largest = std::max(largest, pair.unsettled(pair.largest_motion(body_.mesh(), from, to, begin, end)));
+      else
+        largest = std::max(largest, pair.unsettled());
+    });
     return largest;
   }
   /// Stiffens the enforcement by a factor, where it has multipliers: they settle sooner.
@@ -290,8 +302,7 @@ class System {
     if (by_gaps) {
       if (!words.empty()) return words;
       const Real reach = extent_ + u.lpNorm<Eigen::Infinity>();
-      const RigidMotions<typename Model::Kinematics> motions(body_.mesh().nodes, u);
-      return "coordinates of up to " + figure(reach) + ", of a body that measures " + figure(motions.extent()) +
+      return "coordinates of up to " + figure(reach) + ", of a body that measures " + figure(motions_.extent()) +
              " from its centre, give gaps to no better than " + figure(std::numeric_limits<Real>::epsilon() * reach);
     }
     if constexpr (with_contact) {
@@ -308,11 +319,20 @@ class System {
   }
   /// Force of a support on the body, by nodal component, inertia included; zero to the tolerance at free components.
   /// With generalised-alpha it is that of the balance, between the start and the end of the step.
-  Real reaction(Index component) const { return balance_[component]; }
+  Real reaction(Index component) const {
+    Real force = balance_[component];
+    if constexpr (with_inertia &&
+                  with_contact)  // a support takes contact's force itself, not its weight in the balance
+      if (dofs_.equation(component) == Dofs::constrained) force -= (end_share() - 1) * contact_[component];
+    return force;
+  }
   /// Nodal forces of the last evaluation by component [force].
   const Field& internal() const { return internal_; }
   const Field& contact() const { return contact_; }
   const Field& external() const { return external_; }
+
+  /// Adds the loads at a time to a nodal field.
+  Trouble add_loads(Real time, Field& forces) const { return prescribed_.add_loads(time, forces); }
 
   /// What all contact pairs did in the last evaluation.
   ContactSummary contact_summary() const {
@@ -423,9 +443,20 @@ class System {
     return trouble;
   }
 
-  /// Makes the state of the last evaluation the converged one.
+  /// Makes the state of the last evaluation, at the displacements u, the converged one.
+  void commit([[maybe_unused]] const Field& u, [[maybe_unused]] Real time, [[maybe_unused]] Real dt) {
+    if constexpr (with_inertia) {
+      inertia_.commit(dofs_, u, internal_, contact_);
+      if constexpr (with_contact)
+        for_each_contact(pairs_, [&](const auto& pair) {
+          pair.persist(body_.mesh(), dofs_, inertia_.start_of_step(), u, time - dt, time, inertia_.velocity_before(),
+                       inertia_.velocity());
+        });
+    }
+    commit();
+  }
+  /// The same of what has no velocity: the memory of points and contact nodes.
   void commit() {
-    if constexpr (with_inertia) inertia_.commit();
     body_.commit();
     if constexpr (with_contact) for_each_contact(pairs_, [](auto& pair) { pair.commit(); });
   }
@@ -437,11 +468,11 @@ class System {
     if (const Trouble t = assemble(u, time, dt, driven, excess)) return t;
     if constexpr (with_inertia) {
       const Stopwatch watch(timings.assembly);
-      static_force_ = balance_;
-      inertia_.apply(u, static_force_, balance_, matrix_);
+      smooth_ = internal_ - external_;
+      inertia_.apply(u, smooth_, internal_, balance_, matrix_);
       if (!with_mass_) stiffness_ += inertia_.stiffness();
       with_mass_ = true;
-      if constexpr (keeps_couplings<Model>) couplings_.scale(static_share());
+      if constexpr (keeps_couplings<Model>) couplings_.scale(end_share());
     }
     dofs_.gather(balance_, residual_);
     norm_ = residual_.norm();
@@ -502,14 +533,15 @@ class System {
     material.respond(deformation, state, Real(0));
   };
 
-  // Weight of the forces at the end of a step in the balance.
-  Real static_share() const {
-    if constexpr (with_inertia) return 1 - inertia_.scheme().alpha_f;
+  // Weight of the forces at the end of a step in the balance; with inertia, of those that `balance_` has before it,
+  // where those of the body are weighed already.
+  Real end_share() const {
+    if constexpr (with_inertia) return inertia_.contact_share();
     return 1;
   }
 
-  // Internal, contact and external forces by component, their balance without inertia, and its derivative, of friction
-  // unless contact is to be `smooth`.
+  // Internal, contact and external forces by component, their balance and its derivative; with inertia, what its
+  // balance is made of (InertiaForces::apply). If contact is to be `smooth`, the derivative is without friction's.
   Trouble assemble(const Field& u, Real time, Real dt, const Field* driven, Field* excess, bool smooth = false) {
     internal_.setZero();
     matrix_.set_zero();
@@ -517,6 +549,11 @@ class System {
       const Stopwatch watch(timings.assembly);
       if (const Trouble t = body_.assemble(u, dt, driven, internal_, excess, matrix_)) return t;
       if (!measured_) measure_stiffness();
+      if constexpr (weighs_body)
+        if (dt > 0) {
+          matrix_.scale(inertia_.body_share());
+          if (excess) *excess *= inertia_.body_share();
+        }
     }
     if constexpr (with_contact) {
       const Stopwatch watch(timings.contact);
@@ -531,7 +568,10 @@ class System {
     }
     external_.setZero();
     if (const Trouble t = prescribed_.add_loads(time, external_)) return t;
-    balance_ = internal_ + contact_ - external_;
+    if constexpr (with_inertia)
+      balance_ = contact_;
+    else
+      balance_ = internal_ + contact_ - external_;
     if (excess) balance_ += *excess;
     return {};
   }
@@ -549,7 +589,7 @@ class System {
   Field internal_, contact_, external_, balance_, residual_;
   Field excess_;  // forces that closing the stiff relations' defects adds, by component
   Field open_;    // the residual without them
-  [[no_unique_address]] Only<with_inertia, Field, System> static_force_;
+  [[no_unique_address]] Only<with_inertia, Field, System> smooth_;
   Real norm_ = 0, merit_ = 0;
   Real stiffness_ = 0, sticking_ = 0;  // of the body, its inertia included, and of sticking [force / length]
   bool measured_ = false;              // whether they are those of this iteration

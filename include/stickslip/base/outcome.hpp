@@ -25,6 +25,7 @@ enum class Cause {
   lag_feeds_back,          ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
   slide_turns,             ///< a tool turned, or moved to and fro, by more than a node's slide over the step can follow
   tunnelled,               ///< a node's way over the step led through a tool, whose force it never felt
+  energy_gained,           ///< the time scheme has made energy, beyond the limit that was asked for
   stalled,                 ///< no step along the Newton direction lowers the residual
   digits_lost,             ///< round-off leaves of the forces less than the tolerance asks for
 };
@@ -63,6 +64,8 @@ inline const char* describe(Cause cause) {
       return "a tool turned, or moved to and fro, within the step by more than a node's slide can follow";
     case Cause::tunnelled:
       return "a node went through a tool within the step";
+    case Cause::energy_gained:
+      return "the time scheme has gained energy out of nothing";
     case Cause::stalled:
       return "the Newton iteration stalled";
     case Cause::digits_lost:

@@ -13,6 +13,7 @@ struct Friction {};
 struct PressureSource {};
 struct Enforcement {};
 struct Inertia {};
+struct Damping {};
 struct LinearSolver {};
 
 }  // namespace stickslip::role

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/policy/damping.hpp>
 #include <stickslip/policy/element.hpp>
 #include <stickslip/policy/enforcement.hpp>
 #include <stickslip/policy/friction.hpp>
@@ -51,6 +52,28 @@ constexpr bool has_near_tangent() {
 /// True when the bundle has inertia.
 template <class Model>
 inline constexpr bool has_inertia = Model::Inertia::active;
+
+namespace detail {
+template <class Model>
+struct DampingNamedBy {
+  using type = Undamped;
+};
+template <class Model>
+  requires requires {
+    typename Model::Damping;
+  }
+struct DampingNamedBy<Model> {
+  using type = typename Model::Damping;
+};
+}  // namespace detail
+
+/// The damping of the bundle: `Undamped` where it names none.
+template <class Model>
+using DampingOf = typename detail::DampingNamedBy<Model>::type;
+
+/// True when the bundle has damping.
+template <class Model>
+inline constexpr bool has_damping = DampingOf<Model>::active;
 
 /// Symmetry of the normal contact.
 template <class Model>
@@ -138,7 +161,7 @@ struct ToolNameOf<Model> {
 /// A bundle but for its solver, of which only the storage of the matrix is left: what the body, the contacts and the
 /// balance are made of. Bundles that differ in the solver alone share it, and the compiler's work with it.
 template <class Kinematics_, class Element_, class Material_, class Friction_, class Enforcement_, class Inertia_,
-          class Tool_, Symmetry storage>
+          class Damping_, class Tool_, Symmetry storage>
 struct Mechanics : detail::NamedTool<Tool_> {
   using Kinematics = Kinematics_;
   using Element = Element_;
@@ -146,12 +169,13 @@ struct Mechanics : detail::NamedTool<Tool_> {
   using Friction = Friction_;
   using Enforcement = Enforcement_;
   using Inertia = Inertia_;
+  using Damping = Damping_;
   using LinearSolver = detail::StorageOnly<storage>;
 };
 template <class Model>
 using MechanicsOf = Mechanics<typename Model::Kinematics, typename Model::Element, typename Model::Material,
                               typename Model::Friction, typename Model::Enforcement, typename Model::Inertia,
-                              typename detail::ToolNameOf<Model>::type, matrix_storage<Model>>;
+                              DampingOf<Model>, typename detail::ToolNameOf<Model>::type, matrix_storage<Model>>;
 
 /// The rules of a bundle, a concept each. A rule that combines policies holds while one of them breaks its own
 /// contract: one mistake gives one sentence.
@@ -177,6 +201,10 @@ concept DirectionsNeedSpace = !Kinematics<Model> || !Friction<Model> || Model::K
 template <class Model>
 concept Inertia = InertiaPolicy<typename Model::Inertia>;
 template <class Model>
+concept Damping = DampingPolicy<DampingOf<Model>>;
+template <class Model>
+concept DampingNeedsInertia = !Inertia<Model> || !Damping<Model> || Model::Inertia::active || !DampingOf<Model>::active;
+template <class Model>
 concept HasSymmetry = Kinematics<Model> && Material<Model> && Friction<Model> && Enforcement<Model>;
 template <class Model>
 concept LinearSolver = !HasSymmetry<Model> || LinearSolverPolicy<SolverOf<Model>>;
@@ -193,8 +221,8 @@ concept CorrectsCouplings = !HasSymmetry<Model> || !LinearSolver<Model> || !take
 template <class Model>
 inline constexpr bool valid_model = rule::Kinematics<Model>&& rule::Element<Model>&& rule::SameDimension<Model>&&
     rule::Material<Model>&& rule::Friction<Model>&& rule::Enforcement<Model>&& rule::FrictionNeedsContact<Model>&&
-        rule::DirectionsNeedSpace<Model>&& rule::Inertia<Model>&& rule::LinearSolver<Model>&&
-            rule::SolverAcceptsSystem<Model>&& rule::CorrectsCouplings<Model>;
+        rule::DirectionsNeedSpace<Model>&& rule::Inertia<Model>&& rule::Damping<Model>&& rule::DampingNeedsInertia<
+            Model>&& rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>&& rule::CorrectsCouplings<Model>;
 
 /// Instantiate to have a bundle checked, one sentence for each rule.
 template <class Model>
@@ -224,6 +252,11 @@ struct CheckModel {
                 "to ThreeDimensional or take an isotropic law.");
   static_assert(rule::Inertia<Model>,
                 "stickslip: the bundle's Inertia does not meet InertiaPolicy; see docs/policies.md, section Inertia.");
+  static_assert(rule::Damping<Model>,
+                "stickslip: the bundle's Damping does not meet DampingPolicy; see docs/policies.md, section Damping.");
+  static_assert(rule::DampingNeedsInertia<Model>,
+                "stickslip: the bundle has Damping but no inertia, so that nothing vibrates; set Inertia to "
+                "GeneralizedAlpha or leave Damping out.");
   static_assert(rule::LinearSolver<Model>,
                 "stickslip: the bundle's LinearSolver does not meet LinearSolverPolicy; see docs/policies.md, section "
                 "Linear solver.");

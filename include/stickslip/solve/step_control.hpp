@@ -33,9 +33,13 @@ struct MarchOptions {
   Index max_passes = 30;  ///< over a step
   Index space_every = 0;  ///< steps from one estimate of the mesh's error to the next; 0: none
   bool line_search = true;
-  bool watch_ways = true;     ///< reject a step over which a node goes through a tool (theory.md, eq. 4.19)
-  bool watch_lag = true;      ///< probe lagging bounds that swing, and at the end, and give up where they feed back
-  std::vector<Real> stops{};  ///< times that a step must end at
+  bool watch_ways = true;  ///< reject a step over which a node goes through a tool (theory.md, eq. 4.19)
+  bool watch_lag = true;   ///< probe lagging bounds that swing, and at the end, and give up where they feed back
+  Real energy_gain =
+      1e-3;  ///< with inertia: energy that the time scheme may gain over the largest of the work done and
+             ///< the energy at the start (theory.md, eq. 7.16); beyond it the run warns [-]; 0: not looked at
+  bool refuse_energy_gain = false;  ///< ends the run there instead
+  std::vector<Real> stops{};        ///< times that a step must end at
 
   /// Throws std::invalid_argument, naming what is wrong, for a run that begins at the time `now`.
   void validate(Real now) const {
@@ -55,6 +59,7 @@ struct MarchOptions {
     require::not_negative(time_tolerance, "march: the time tolerance");
     require::not_negative(lag_tolerance, "march: the lag tolerance");
     require::not_negative(step_tolerance, "march: the step tolerance");
+    require::not_negative(energy_gain, "march: the energy gain");
     for (const Real stop : stops)
       if (!std::isfinite(stop)) refuse("every stop must be finite");
     const Real resolved = resolution(now);
