@@ -72,7 +72,18 @@ class March : public Course {
   friend class Problem<Model>;
   using Mechanical = MechanicsOf<Model>;
   March(Problem<Model>& problem, const MarchOptions& options);
+  struct Attempt {
+    NewtonReport newton{};
+    Index passes = 1, first_iterations = 0;
+  };
+  struct Reason {
+    Trouble trouble{};
+    std::string detail{};
+  };
   void advance();
+  Attempt attempt(Field& u, Real time, Real dt);
+  Reason doubt(const Field& u, const StepReport& step, const NewtonReport& newton);
+  Reason explain(Trouble trouble, Real time, Real dt);
   Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
   bool feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact);
   void watch_energy(const StepReport& step);
@@ -277,6 +288,93 @@ void March<Model>::serialize(Archive& archive) {
   problem_.system_->timings = now_.report.timings;
 }
 
+/// Solves for the step that ends at `time`, and looks whether its way and its friction can be what they seem.
+template <class Model>
+typename March<Model>::Attempt March<Model>::attempt(Field& u, Real time, Real dt) {
+  System<Mechanical>& system = *problem_.system_;
+  Attempt a;
+  NewtonReport& newton = a.newton;
+  newton_.known_scale = now_.largest_force;
+  const bool guessed = problem_.guess(dt, u);
+  newton.trouble = system.impose(time, u);
+  if constexpr (has_friction<Model>)
+    if (!newton.trouble) newton.trouble = system.set_out(problem_.u_, problem_.time_, time);
+  if (newton.trouble) return a;
+  if (guessed) {
+    newton = newton_.solve(system, u, time, dt);
+  } else {
+    driven_ = u - problem_.u_;
+    u = problem_.u_;
+    newton = newton_.solve(system, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
+  }
+  if constexpr (has_friction<Model> && !has_inertia<Model>)
+    if (newton.trouble) retry(u, time, dt, newton);
+  if constexpr (has_friction<Model>)
+    if (!newton.trouble && system.must_follow(problem_.u_, u)) {
+      const Index unfollowed = newton.iterations;
+      newton = newton_.resume(system, u, time, dt);
+      newton.iterations += unfollowed;
+    }
+  a.first_iterations = newton.iterations;
+  if constexpr (takes_passes<Model>())
+    if (!newton.trouble) a.passes = pass_again(u, time, dt, newton);
+  if constexpr (has_friction<Model>)
+    if (!newton.trouble) newton.trouble = system.slide_turned();
+  if constexpr (has_contact<Model>)
+    if (!newton.trouble && options_.watch_ways)
+      newton.trouble = system.passed_through(problem_.u_, u, problem_.time_, time);
+  return a;
+}
+
+/// Whether a step that has converged is no answer; then why.
+template <class Model>
+typename March<Model>::Reason March<Model>::doubt(const Field& u, const StepReport& step, const NewtonReport& newton) {
+  System<Mechanical>& system = *problem_.system_;
+  // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
+  if constexpr (!has_inertia<Model>) {
+    driven_ = u - problem_.u_;
+    if (!problem_.proven_ || driven_.lpNorm<Eigen::Infinity>() > system.extent() || system.loose_part(false) >= 0)
+      if (const Index part = system.free_part(u, &driven_); part >= 0)
+        return {{Cause::unsupported, {}}, system.part_name(part)};
+  }
+  if constexpr (has_lag<Model>())
+    if (feeds_back(u, step.time, step.dt, step.contact)) return {{Cause::lag_feeds_back, {}}, {}};
+  const Real scale = std::max(system.force_scale(), now_.largest_force);
+  const Real left = newton.residual > 0 ? system.residual_norm() : 0;  // not of a body that only moves
+  if (digits_lost(scale, left, system.blurred(), step.time >= options_.end)) {
+    const bool by_gaps = now_.floor_by_gaps != 0;
+    return {{Cause::digits_lost, {}}, digits_left(system.blame(u, by_gaps, by_gaps ? 1e8 : 1e3))};
+  }
+  return {};
+}
+
+/// The reason why no step is small enough, by name where the scene tells it. Spoils the last evaluation.
+template <class Model>
+typename March<Model>::Reason March<Model>::explain(Trouble trouble, Real time, [[maybe_unused]] Real dt) {
+  System<Mechanical>& system = *problem_.system_;
+  if (trouble.cause == Cause::contradicting_supports) return {trouble, system.contradiction(time)};
+  [[maybe_unused]] std::string sliding;
+  if constexpr (has_friction<Model>) {
+    if (trouble.cause == Cause::slide_turns) return {trouble, system.turned_too_far()};
+    sliding = system.sliding_contacts();
+  }
+  if constexpr (!has_inertia<Model>) {
+    if (!system.evaluate(problem_.u_, problem_.time_, dt))
+      if (const Index part = system.free_part(problem_.u_); part >= 0)
+        return {{Cause::unsupported, {}}, system.part_name(part)};
+    if constexpr (has_friction<Model>)
+      if (finds_no_balance(trouble.cause) && system.held_by_friction(problem_.u_, problem_.time_))
+        return {{Cause::slides, {}}, sliding.empty() ? system.sliding_contacts() : sliding};
+  }
+  if (finds_no_balance(trouble.cause) || trouble.cause == Cause::element_inverted) {
+    const bool singular = trouble.cause == Cause::singular_matrix;
+    const std::string blamed = system.blame(problem_.u_, false, singular ? 1e8 : drowned() ? 1e3 : 1e13);
+    if (drowned()) return {{Cause::digits_lost, {}}, digits_left(blamed)};
+    if (!blamed.empty()) return {{Cause::digits_lost, {}}, blamed};
+  }
+  return {trouble, {}};
+}
+
 template <class Model>
 void March<Model>::advance() {
   if constexpr (keeps_books)
@@ -290,99 +388,48 @@ void March<Model>::advance() {
   System<Mechanical>& system = *problem_.system_;
   Field& u = trial_;
   Index rejected = 0;
-  const auto unsupported = [&](Index part, Real dt, Index attempts) {
+  const auto end = [&](Reason reason, Real dt, Index attempts) {
     if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
-    fail({Cause::unsupported, {}}, problem_.time_, dt, attempts, system.part_name(part));
+    fail(reason.trouble, problem_.time_, dt, attempts, std::move(reason.detail));
   };
   if constexpr (!has_inertia<Model>)
     if (!problem_.proven_)
       if (const Index part = system.loose_part(true); part >= 0)
-        return unsupported(part, now_.control.next() - problem_.time_, 0);
-  const auto give_up = [&] {
-    ++rejected;
-    ++now_.report.rejected_steps;
-    if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
-  };
+        return end({{Cause::unsupported, {}}, system.part_name(part)}, now_.control.next() - problem_.time_, 0);
   for (;;) {
     const Real time = now_.control.next();
     const Real dt = time - problem_.time_;
-    newton_.known_scale = now_.largest_force;
-    const bool guessed = problem_.guess(dt, u);
-    Trouble trouble = system.impose(time, u);
-    if constexpr (has_friction<Model>)
-      if (!trouble) trouble = system.set_out(problem_.u_, problem_.time_, time);
-    NewtonReport newton;
-    if (trouble) {
-      newton.trouble = trouble;
-    } else if (guessed) {
-      newton = newton_.solve(system, u, time, dt);
-    } else {
-      driven_ = u - problem_.u_;
-      u = problem_.u_;
-      newton = newton_.solve(system, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
-    }
-    if constexpr (has_friction<Model> && !has_inertia<Model>)
-      if (newton.trouble) retry(u, time, dt, newton);
-    if constexpr (has_friction<Model>)
-      if (!newton.trouble && system.must_follow(problem_.u_, u)) {
-        const Index unfollowed = newton.iterations;
-        newton = newton_.resume(system, u, time, dt);
-        newton.iterations += unfollowed;
-      }
-    Index passes = 1;
-    const Index first_iterations = newton.iterations;
-    if constexpr (takes_passes<Model>())
-      if (!newton.trouble) passes = pass_again(u, time, dt, newton);
-    if constexpr (has_friction<Model>)
-      if (!newton.trouble) newton.trouble = system.slide_turned();
-    if constexpr (has_contact<Model>)
-      if (!newton.trouble && options_.watch_ways)
-        newton.trouble = system.passed_through(problem_.u_, u, problem_.time_, time);
-    tally(passes, newton.iterations, newton_.counts, system.timings);
+    const Attempt tried = attempt(u, time, dt);
+    const NewtonReport& newton = tried.newton;
+    tally(tried.passes, newton.iterations, newton_.counts, system.timings);
     Real local_error = 0, error = 0;
+    bool too_coarse = false;
     if constexpr (has_inertia<Model>) {
       if (!newton.trouble) local_error = system.local_error();
       if (options_.time_tolerance > 0) error = local_error / options_.time_tolerance;
       if (error > 2 && options_.steps == 0) {
         now_.control.reject(time, error);
-        if (!now_.control.too_small()) {
-          give_up();
-          continue;
-        }
+        too_coarse = !now_.control.too_small();
       }
     }
-    if (!newton.trouble) {
+    if (!newton.trouble && !too_coarse) {
       const ContactSummary contact = system.contact_summary();
       StepReport step{.time = time,
                       .dt = dt,
                       .iterations = newton.iterations,
                       .rejected = rejected,
-                      .passes = passes,
+                      .passes = tried.passes,
                       .negative_pivots = newton.negative_pivots,
                       .residual = newton.residual,
                       .contact = contact,
                       .local_error = local_error,
                       .work = std::abs(system.internal().dot(u - problem_.u_)) + contact.dissipated};
       estimate(step);
-      Cause refusal = Cause::none;
-      // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
-      if constexpr (!has_inertia<Model>) {
-        driven_ = u - problem_.u_;
-        if (!problem_.proven_ || driven_.lpNorm<Eigen::Infinity>() > system.extent() || system.loose_part(false) >= 0)
-          if (const Index part = system.free_part(u, &driven_); part >= 0) return unsupported(part, dt, rejected + 1);
-      }
-      if constexpr (has_lag<Model>())
-        if (refusal == Cause::none && feeds_back(u, time, dt, contact)) refusal = Cause::lag_feeds_back;
-      if (refusal != Cause::none) return fail({refusal, {}}, problem_.time_, dt, rejected + 1);
-      const Real force = system.force_scale(), scale = std::max(force, now_.largest_force);
-      const Real left = newton.residual > 0 ? system.residual_norm() : 0;  // not of a body that only moves
-      if (digits_lost(scale, left, system.blurred(), time >= options_.end))
-        return fail({Cause::digits_lost, {}}, problem_.time_, dt, rejected + 1,
-                    digits_left(system.blame(u, now_.floor_by_gaps != 0, now_.floor_by_gaps != 0 ? 1e8 : 1e3)));
+      if (Reason reason = doubt(u, step, newton); reason.trouble) return end(std::move(reason), dt, rejected + 1);
       if constexpr (decltype(newton_)::tells_pivots)
         if (newton.iterations == 0) step.negative_pivots = now_.negative_pivots;
       watch_pivots(step.negative_pivots);
-      accept(step, first_iterations, error);
+      accept(step, tried.first_iterations, error);
       problem_.accept(u, time, dt);
       state_ = problem_.revision_;
       if (stress_ && now_.report.steps % options_.space_every == 0) {
@@ -393,32 +440,12 @@ void March<Model>::advance() {
       watch_energy(step);
       return book(step);
     }
-    give_up();
+    ++rejected;
+    ++now_.report.rejected_steps;
+    if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
+    if (too_coarse) continue;
     now_.control.reject(time);
-    if (now_.control.too_small()) {
-      std::string detail;
-      if (newton.trouble.cause == Cause::contradicting_supports) detail = system.contradiction(time);
-      if constexpr (has_friction<Model>)
-        if (newton.trouble.cause == Cause::slide_turns) detail = system.turned_too_far();
-      if constexpr (!has_inertia<Model>) {
-        [[maybe_unused]] std::string sliding;
-        if constexpr (has_friction<Model>) sliding = system.sliding_contacts();
-        if (!system.evaluate(problem_.u_, problem_.time_, dt))
-          if (const Index part = system.free_part(problem_.u_); part >= 0) return unsupported(part, dt, rejected);
-        if constexpr (has_friction<Model>)
-          if (finds_no_balance(newton.trouble.cause) && system.held_by_friction(problem_.u_, problem_.time_)) {
-            newton.trouble = {Cause::slides, {}};
-            detail = sliding.empty() ? system.sliding_contacts() : sliding;
-          }
-      }
-      const Cause cause = newton.trouble.cause;
-      if (finds_no_balance(cause) || cause == Cause::element_inverted) {
-        detail = system.blame(problem_.u_, false, cause == Cause::singular_matrix ? 1e8 : drowned() ? 1e3 : 1e13);
-        if (drowned()) detail = digits_left(detail);
-        if (!detail.empty()) newton.trouble = {Cause::digits_lost, {}};
-      }
-      return fail(newton.trouble, problem_.time_, dt, rejected, std::move(detail));
-    }
+    if (now_.control.too_small()) return end(explain(newton.trouble, time, dt), dt, rejected);
   }
 }
 
