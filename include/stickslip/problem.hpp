@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/assembly/stress_recovery.hpp>
+#include <stickslip/base/brief.hpp>
 #include <stickslip/mesh/coincident_nodes.hpp>
 #include <stickslip/scene.hpp>
 #include <stickslip/solve/course.hpp>
@@ -9,7 +10,6 @@
 #include <stickslip/solve/newton.hpp>
 
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -259,13 +259,10 @@ void March<Model>::watch_energy([[maybe_unused]] const StepReport& step) {
     books_->update(step);
     const Real gain = books_->gain();
     if (!(gain > options_.energy_gain)) return;
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "the time scheme has gained %.2g of the largest of the work done and the energy at the start; take "
-                  "smaller steps, or a spectral radius below 1",
-                  gain);
-    gained_ = text;
-    warn("energy_gained", "", text);
+    gained_ = "the time scheme has gained " + brief(gain, 2) +
+              " of the largest of the work done and the energy at the start; take smaller steps, or a spectral radius "
+              "below 1";
+    warn("energy_gained", "", gained_);
   }
 }
 

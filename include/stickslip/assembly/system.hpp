@@ -7,7 +7,7 @@
 #include <stickslip/assembly/parts.hpp>
 #include <stickslip/assembly/prescribed.hpp>
 #include <stickslip/assembly/rigid_motions.hpp>
-#include <stickslip/base/figure.hpp>
+#include <stickslip/base/brief.hpp>
 
 #include <algorithm>
 #include <array>
@@ -296,14 +296,14 @@ class System {
     if constexpr (requires { body_.material().poisson; }) {
       const Real poisson = body_.material().poisson;
       const Real ratio = 2 * (1 + poisson) / (3 * (1 - 2 * poisson));
-      accuse(ratio, "the bulk modulus is " + figure(ratio) + " times the shear modulus, at a Poisson's ratio " +
-                        figure(0.5 - poisson) + " below 0.5");
+      accuse(ratio, "the bulk modulus is " + brief(ratio, 2) + " times the shear modulus, at a Poisson's ratio " +
+                        brief(0.5 - poisson, 2) + " below 0.5");
     }
     if (by_gaps) {
       if (!words.empty()) return words;
       const Real reach = extent_ + u.lpNorm<Eigen::Infinity>();
-      return "coordinates of up to " + figure(reach) + ", of a body that measures " + figure(motions_.extent()) +
-             " from its centre, give gaps to no better than " + figure(std::numeric_limits<Real>::epsilon() * reach);
+      return "coordinates of up to " + brief(reach, 2) + ", of a body that measures " + brief(motions_.extent(), 2) +
+             " from its centre, give gaps to no better than " + brief(std::numeric_limits<Real>::epsilon() * reach, 2);
     }
     if constexpr (with_contact) {
       internal_.setZero();
@@ -311,8 +311,8 @@ class System {
       if (!body_.assemble(u, 0, nullptr, internal_, nullptr, matrix_))
         for_each_contact(pairs_, [&](const auto& pair) {
           const Real ratio = pair.stiffest() / matrix_.largest();
-          accuse(ratio,
-                 "the penalty of contact \"" + pair.name() + "\" is " + figure(ratio) + " times the body's stiffness");
+          accuse(ratio, "the penalty of contact \"" + pair.name() + "\" is " + brief(ratio, 2) +
+                            " times the body's stiffness");
         });
     }
     return words;

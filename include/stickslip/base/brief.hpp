@@ -8,10 +8,11 @@
 
 namespace stickslip {
 
-/// A number for a sentence, in at most six significant digits: small ones stay what they are, and no locale has a say.
-inline std::string brief(Real x) {
+/// A number for a sentence, in at most so many significant digits: small ones stay what they are, and no locale has a
+/// say.
+inline std::string brief(Real x, int precision = 6) {
   char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof(digits), x, std::chars_format::general, 6).ptr};
+  return {digits, std::to_chars(digits, digits + sizeof(digits), x, std::chars_format::general, precision).ptr};
 }
 
 }  // namespace stickslip

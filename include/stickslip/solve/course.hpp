@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/base/figure.hpp>
+#include <stickslip/base/brief.hpp>
 #include <stickslip/solve/report.hpp>
 #include <stickslip/solve/step_control.hpp>
 #include <stickslip/solve/warnings.hpp>
@@ -140,7 +140,7 @@ class Course {
   }
   // In words; `reason` may be empty.
   std::string digits_left(const std::string& reason) const {
-    const auto digits = [](Real part) { return figure(std::max(0.0, -std::log10(part))); };
+    const auto digits = [](Real part) { return brief(std::max(0.0, -std::log10(part)), 2); };
     return digits(now_.floor / now_.largest_force) + " digits of the forces are left, the tolerance asks for " +
            digits(options_.tolerance) + (reason.empty() ? "" : "; " + reason);
   }
