@@ -360,8 +360,6 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         return product(pose.rotation, distance_to<Real, dim>(tool_, y).normal);
       };
       const Vec<Real, dim> n0 = normal_at(poses[0], y0), n1 = normal_at(poses[2], y1);
-      Vec<Real, dim> mean = minus(at_node<dim>(to, n), at_node<dim>(from, n));
-      mean /= dt;
       const PlaceVelocity<dim> tool(poses, y1, dt);
       const Vec<Real, dim> v0 = minus(at_node<dim>(before, n), tool.start);
       Vec<Real, dim> v1 = minus(at_node<dim>(velocity, n), tool.end);
@@ -376,6 +374,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if (kept != rate1) push<dim>(velocity, dofs, n, n1, kept - rate1);
       if constexpr (with_friction)
         if (!state.sliding) {
+          Vec<Real, dim> mean = minus(at_node<dim>(to, n), at_node<dim>(from, n));
+          mean /= dt;
           const auto along = [&](const Vec<Real, dim>& v) {
             return Vec<Real, dim>(minus(v, scaled(n1, contraction(n1, v))));
           };
