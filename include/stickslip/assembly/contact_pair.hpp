@@ -493,26 +493,37 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   /// and `velocity` at the time `end`.
   template <class MeshType>
   void persist(const MeshType& mesh, const Dofs& dofs, const Field& from, const Field& to, Real begin, Real end,
-               const Field& before, Field& velocity) const {
+               const Field& before, const Field& mass, Field& velocity) const {
     const std::array<rigid::Pose<dim>, 3> poses{motion_.at(begin), motion_.at(0.5 * (begin + end)), motion_.at(end)};
     const Real dt = end - begin;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
-      if (!(trial_states_[k].pressure > 0)) continue;
+      const ContactNodeState<dim>& state = trial_states_[k];
+      if (!(state.pressure > 0)) continue;
       const Index n = nodes_[k];
-      const Vec<Real, dim> y = on_tool(mesh, to, poses[2], n);
-      const Vec<Real, dim> normal = product(poses[2].rotation, distance_to<Real, dim>(tool_, y).normal);
-      const PlaceVelocity<dim> tool(poses, y, dt);
-      const Vec<Real, dim> v0 = minus(at_node<dim>(before, n), tool.start),
-                           v1 = minus(at_node<dim>(velocity, n), tool.end);
-      const Real left = contraction(normal, v1);
-      const Real kept = persistent(contraction(normal, v0), left, (trial_states_[k].gap - states_[k].gap) / dt);
-      if (kept != left) push<dim>(velocity, dofs, n, normal, kept - left);
+      // Where the step began and where it ended, on the tool.
+      const Vec<Real, dim> y0 = on_tool(mesh, from, poses[0], n), y1 = on_tool(mesh, to, poses[2], n);
+      const auto normal_at = [&](const rigid::Pose<dim>& pose, const Vec<Real, dim>& y) {
+        return product(pose.rotation, distance_to<Real, dim>(tool_, y).normal);
+      };
+      const Vec<Real, dim> n0 = normal_at(poses[0], y0), n1 = normal_at(poses[2], y1);
+      const PlaceVelocity<dim> tool(poses, y1, dt);
+      const Vec<Real, dim> v0 = minus(at_node<dim>(before, n), tool.start);
+      Vec<Real, dim> v1 = minus(at_node<dim>(velocity, n), tool.end);
+      if (states_[k].pressure > 0) {
+        const Vec<Real, dim> turn = scaled(minus(halfway<dim>(n0, n1, state.force), state.force), -dt / mass[n]);
+        add_free<dim>(velocity, dofs, n, scaled(turn, share_within(v1, turn, contraction(v0, v0))));
+        v1 = minus(at_node<dim>(velocity, n), tool.end);
+      }
+      const Real rate0 = contraction(n0, minus(at_node<dim>(before, n), PlaceVelocity<dim>(poses, y0, dt).start)),
+                 rate1 = contraction(n1, v1);
+      const Real kept = persistent(rate0, rate1, (state.gap - states_[k].gap) / dt);
+      if (kept != rate1) push<dim>(velocity, dofs, n, n1, kept - rate1);
       if constexpr (with_friction)
-        if (!trial_states_[k].sliding) {
+        if (!state.sliding) {
           Vec<Real, dim> mean = minus(at_node<dim>(to, n), at_node<dim>(from, n));
           mean /= dt;
           const auto along = [&](const Vec<Real, dim>& v) {
-            return Vec<Real, dim>(minus(v, scaled(normal, contraction(normal, v))));
+            return Vec<Real, dim>(minus(v, scaled(n1, contraction(n1, v))));
           };
           const Vec<Real, dim> t1 = along(v1);
           const Vec<Real, dim> change = minus(persistent<dim>(along(v0), t1, along(minus(mean, tool.mean))), t1);

@@ -188,6 +188,8 @@ class InertiaForcesOf {
   /// Displacements at the start of the step that was committed last, and until the next begins the velocities there.
   const Field& start_of_step() const { return start_; }
   const Field& velocity_before() const requires with_contact { return work_; }
+  /// Masses of the nodes of contact sides, by node; 0 elsewhere.
+  const Field& contact_mass() const requires with_contact { return contact_mass_; }
   /// What damping has taken in that step [energy].
   Real dissipated() const requires damped { return dissipated_; }
 

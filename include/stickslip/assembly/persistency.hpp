@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace stickslip {
 
@@ -44,6 +45,37 @@ Vec<Real, dim> persistent(const Vec<Real, dim>& before, const Vec<Real, dim>& af
   Vec<Real, dim> shortest = after;
   if (length2 > 0) add(shortest, way, std::clamp(-contraction(after, way) / length2, Real(0), Real(1)));
   return shortest;
+}
+
+/// A force on a surface whose normal the step turned from n0 to n1, as it stood halfway: turned back by half the angle.
+/// At an edge, where the normal jumps, it has no way to turn.
+template <int dim>
+Vec<Real, dim> halfway(const Vec<Real, dim>& n0, const Vec<Real, dim>& n1, const Vec<Real, dim>& force) {
+  if (contraction(n0, n1) < 0.8) return force;
+  Vec<Real, dim> middle = n0;
+  add(middle, n1);
+  middle /= middle.norm();
+  Vec<Real, dim> sum = middle, turned = force;
+  add(sum, n1);
+  add(turned, sum, -contraction(sum, force) / (1 + contraction(middle, n1)));
+  add(turned, middle, 2 * contraction(n1, force));
+  return turned;
+}
+
+/// The share of a change of velocity v that leaves v^2 at no more than the larger of its value and `limit`.
+template <int dim>
+Real share_within(const Vec<Real, dim>& v, const Vec<Real, dim>& change, Real limit) {
+  const Real a = contraction(change, change), b = contraction(v, change),
+             room = std::max(Real(0), limit - contraction(v, v));
+  if (!(a > 0)) return 0;
+  return std::clamp((-b + std::sqrt(b * b + a * room)) / a, Real(0), Real(1));
+}
+
+/// Adds to the free components of a node's velocity.
+template <int dim>
+void add_free(Field& velocity, const Dofs& dofs, Index node, const Vec<Real, dim>& change) {
+  for (int i = 0; i < dim; ++i)
+    if (dofs.equation(node * dim + i) != Dofs::constrained) velocity[node * dim + i] += change[i];
 }
 
 /// Changes a node's velocity by `amount` along a direction, through its free components alone. Where these have next to

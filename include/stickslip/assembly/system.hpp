@@ -450,7 +450,7 @@ class System {
       if constexpr (with_contact)
         for_each_contact(pairs_, [&](const auto& pair) {
           pair.persist(body_.mesh(), dofs_, inertia_.start_of_step(), u, time - dt, time, inertia_.velocity_before(),
-                       inertia_.velocity());
+                       inertia_.contact_mass(), inertia_.velocity());
         });
     }
     commit();
