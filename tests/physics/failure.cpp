@@ -416,6 +416,8 @@ TEST_CASE("a part that a tool holds is held, until the tool leaves it") {
   CHECK(march.outcome().trouble.cause == Cause::unsupported);
   CHECK(march.outcome().message().find("with side \"below\"") != std::string::npos);
   CHECK(loose->displacement().norm() < 10);
+}
+
 // A block of 4 x 2 that a plane presses from above: Hencky's law in plane strain and the penalty per area in series.
 struct Squeeze {
   Real young = 1000, poisson = 0.3, depth = 0.2, penalty = 1e8, offset = 0;
