@@ -256,6 +256,25 @@ TEST_CASE("a block that sticks to a turning plate is held on its circle") {
   REQUIRE(march.outcome());
 }
 
+TEST_CASE("a force on a turning normal stands halfway, and its impulse is bounded") {
+  const auto at = [](Real angle) { return V(std::cos(angle), std::sin(angle)); };
+  const V force = 3 * at(0.9);  // of any direction against the normal
+  CHECK((halfway<2>(at(0.1), at(0.5), force) - 3 * at(0.7)).norm() < 1e-14);
+  CHECK((halfway<2>(at(0.5), at(0.5), force) - force).norm() < 1e-14);
+  CHECK((halfway<2>(at(0.5 - 0.5 * pi), at(0.5), force) - force).norm() == 0);  // an edge
+  const Vec<Real, 3> n0(0, 0, 1), n1(0, std::sin(0.4), std::cos(0.4)), along(1, 0, 0);
+  CHECK((halfway<3>(n0, n1, Vec<Real, 3>(along + 2 * n1)) - Vec<Real, 3>(1, 2 * std::sin(0.2), 2 * std::cos(0.2)))
+            .norm() < 1e-14);
+  CHECK(share_within<2>({1, 0}, {1, 0}, 4) == doctest::Approx(1));
+  CHECK(share_within<2>({1, 0}, {2, 0}, 4) == doctest::Approx(0.5));
+  CHECK(share_within<2>({1, 0}, {1, 0}, 0.5) == 0);
+  CHECK(share_within<2>({1, 0}, {-1, 0}, 0) == 1);
+  // Normal velocities: hard contact, a spring that the step resolves, a node at rest.
+  CHECK(persistent(-1, 1, 0) == 0);
+  CHECK(persistent(-1, -0.9, -0.95) == -0.9);
+  CHECK(persistent(0, -1, -0.5) == -0.5);
+}
+
 TEST_CASE("damping takes tau omega / 2 of critical, and the books know it") {
   Problem<Damped> rod{
       {.body = mesh::rectangle({.size = {1, length}, .cells = {1, 20}}),

@@ -488,7 +488,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     return largest;
   }
 
-  /// Makes the velocities of pressed nodes persist in contact (theory.md, eq. 7.13, 7.14), after a step from the
+  /// Makes the velocities of pressed nodes persist in contact (theory.md, eq. 7.13 to 7.14), after a step from the
   /// converged displacements `from` and velocities `before` at the time `begin` to those of the last assembly, `to`,
   /// and `velocity` at the time `end`.
   template <class MeshType>
@@ -507,11 +507,17 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       };
       const Vec<Real, dim> n0 = normal_at(poses[0], y0), n1 = normal_at(poses[2], y1);
       const PlaceVelocity<dim> tool(poses, y1, dt);
+      Vec<Real, dim> mean = minus(at_node<dim>(to, n), at_node<dim>(from, n));
+      mean /= dt;
       const Vec<Real, dim> v0 = minus(at_node<dim>(before, n), tool.start);
       Vec<Real, dim> v1 = minus(at_node<dim>(velocity, n), tool.end);
       if (states_[k].pressure > 0) {
-        const Vec<Real, dim> turn = scaled(minus(halfway<dim>(n0, n1, state.force), state.force), -dt / mass[n]);
-        add_free<dim>(velocity, dofs, n, scaled(turn, share_within(v1, turn, contraction(v0, v0))));
+        const Real lasting = std::min(1.0, states_[k].pressure / state.pressure);
+        const Vec<Real, dim> turn =
+            scaled(minus(halfway<dim>(n0, n1, state.force), state.force), -lasting * dt / mass[n]);
+        const Vec<Real, dim> led = minus(scaled(minus(mean, tool.mean), Real(2)), v0);  // that the motion asks for
+        const Real limit = std::max(contraction(v0, v0), contraction(led, led));
+        add_free<dim>(velocity, dofs, n, scaled(turn, share_within(v1, turn, limit)));
         v1 = minus(at_node<dim>(velocity, n), tool.end);
       }
       const Real rate0 = contraction(n0, minus(at_node<dim>(before, n), PlaceVelocity<dim>(poses, y0, dt).start)),
@@ -520,8 +526,6 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       if (kept != rate1) push<dim>(velocity, dofs, n, n1, kept - rate1);
       if constexpr (with_friction)
         if (!state.sliding) {
-          Vec<Real, dim> mean = minus(at_node<dim>(to, n), at_node<dim>(from, n));
-          mean /= dt;
           const auto along = [&](const Vec<Real, dim>& v) {
             return Vec<Real, dim>(minus(v, scaled(n1, contraction(n1, v))));
           };

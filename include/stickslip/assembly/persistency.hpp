@@ -47,7 +47,8 @@ Vec<Real, dim> persistent(const Vec<Real, dim>& before, const Vec<Real, dim>& af
   return shortest;
 }
 
-/// A force on a surface whose normal the step turned from n0 to n1, as it stood halfway: turned back by half the angle.
+/// A force on a surface whose normal the step turned from n0 to n1, as it stood halfway: turned back by half the angle
+/// (theory.md, eq. 7.13a).
 /// At an edge, where the normal jumps, it has no way to turn.
 template <int dim>
 Vec<Real, dim> halfway(const Vec<Real, dim>& n0, const Vec<Real, dim>& n1, const Vec<Real, dim>& force) {
@@ -62,7 +63,8 @@ Vec<Real, dim> halfway(const Vec<Real, dim>& n0, const Vec<Real, dim>& n1, const
   return turned;
 }
 
-/// The share of a change of velocity v that leaves v^2 at no more than the larger of its value and `limit`.
+/// The share of a change of velocity v that leaves v^2 at no more than the larger of its value and `limit`
+/// (eta of eq. 7.13a).
 template <int dim>
 Real share_within(const Vec<Real, dim>& v, const Vec<Real, dim>& change, Real limit) {
   const Real a = contraction(change, change), b = contraction(v, change),
