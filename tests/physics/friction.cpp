@@ -51,7 +51,7 @@ TEST_CASE("Quasi-Coulomb reports the lag that it has") {
     before = -force[1];
     lags.push_back(step.lag);
   });
-  CHECK(lags.front() == doctest::Approx(1));  // first contact: all of the bound is unseen
+  CHECK(lags.front() < 0.05);  // first contact: the bound is that of the step's own pressure
   CHECK(lags.back() < 0.1);
   CHECK(lags.back() > 1e-3);
 }

@@ -100,8 +100,10 @@ const Hard poisoned(
           c.refuses(march, {source.cause});
           const Outcome& outcome = march.outcome();
           c.require(outcome.trouble.place.kind == source.place, name + ": the place, " + outcome.message());
-          // No solution goes by before it is noticed; a faulty solver is asked once an attempt.
-          c.require(faults.solutions <= (source.fault == &Faults::solution ? outcome.attempts : 0), name + ": at once");
+          // No solution goes by before it is noticed; a faulty solver is asked twice an attempt, which is tried again
+          // once.
+          c.require(faults.solutions <= (source.fault == &Faults::solution ? 2 * outcome.attempts : 0),
+                    name + ": at once");
           c.require(outcome.attempts > 0 && outcome.tried_step > 0 && outcome.step == 1 && outcome.time == 0.5,
                     name + ": what was tried");
           c.require(p->displacement() == before && p->time() == 0.5 && p->contact_force("tool") == force &&

@@ -293,8 +293,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
         if (followed) {
           const Real turn = turn_of_slide<dim>(way, node.sliding, node.bound, enforcement_.stick_stiffness(weight_[k]),
                                                1e-3 * spacing_[k], own_way(mesh, u, k).norm());
-          if (turn > summary_.turn) {
-            summary_.turn = turn;
+          if (turn > trial_summary_.turn) {
+            trial_summary_.turn = turn;
             turned_most_ = n;
           }
         }
@@ -367,7 +367,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     return true;
   }
   /// Whether this pair is what the step cannot follow.
-  bool turned_too_far() const requires with_friction { return !along_.resolved() || summary_.turn > 1; }
+  bool turned_too_far() const requires with_friction { return !along_.resolved() || trial_summary_.turn > 1; }
   /// Refuses a step over which a node's slide has turned by more than the step can tell (theory.md, eq. 4.25).
   Trouble slide_turned() const requires with_friction {
     if (!turned_too_far()) return {};
@@ -664,18 +664,14 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     }
   }
 
-  // Whether the node's bound is that of the step's own pressure: it did not slide in the last step, or no pressure is
-  // known of it (theory.md, section 5.4).
+  // Whether the node's bound is that of the step's own pressure: no step before knows one (theory.md, section 5.4).
   bool takes_own(std::size_t k, Real dt) const requires lags {
-    return own_.taken && (own_.of_all || !states_[k].sliding ||
-                          !(Friction::Pressure::pressure(Real(0), committed_[k].friction.pressure, dt) > 0));
+    return own_.taken &&
+           (own_.of_all || !(Friction::Pressure::pressure(Real(0), committed_[k].friction.pressure, dt) > 0));
   }
-  // Begins the step's own pressures with those of the last one. Of the nodes that stuck these are no more than a start.
+  // Begins the step's own pressures with those of the last one, of which there are none at a first contact.
   void set_out_from_known() requires lags {
-    for (std::size_t k = 0; k < nodes_.size(); ++k) {
-      own_.pressure[k] = states_[k].pressure;
-      turning_[k].stuck = states_[k].touching && !states_[k].sliding;
-    }
+    for (std::size_t k = 0; k < nodes_.size(); ++k) own_.pressure[k] = states_[k].pressure;
     own_.looks = 0;
   }
   // Takes the pressures that the iteration is led to into the bounds of nodes that have none of an earlier step, while
@@ -803,7 +799,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   [[no_unique_address]] Only<with_friction, std::vector<Departure<dim>>, struct DepartureTag>
       departures_;                                                                  // of a step that is followed
   [[no_unique_address]] Only<with_friction, bool, struct FollowTag> follows_{};     // whether this one is
-  [[no_unique_address]] Only<with_friction, Index, struct TurnTag> turned_most_{};  // the node of summary_.turn
+  [[no_unique_address]] Only<with_friction, Index, struct TurnTag> turned_most_{};  // the node of trial_summary_.turn
   [[no_unique_address]] Only<iterates, Relaxation, Memory> relaxation_;
   [[no_unique_address]] Only<is_augmented<Enforcement>, Real, struct StiffenedTag>
       stiffened_;                                         // by how much in this step

@@ -3,6 +3,7 @@
 
 #include <stickslip/assembly/dofs.hpp>
 #include <stickslip/assembly/parts.hpp>
+#include <stickslip/base/nodal.hpp>
 #include <stickslip/base/null_space.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 #include <stickslip/tensor/products.hpp>
@@ -43,9 +44,12 @@ class RigidMotions {
   void take(const Field& u, const Dofs& dofs, const SparseView& matrix) {
     u_ = u;
     for (OfPart& of : of_) {
+      of.shift.setZero();
       of.resistance.setZero();
       of.stiffness = 0;
     }
+    for (Index n = 0; n < static_cast<Index>(nodes_.size()); ++n)
+      add(part(n).shift, at_node<dim>(u, n), 1 / Real(part(n).nodes));
     for (Index j = 0; j < matrix.size; ++j)
       for (Index s = matrix.column_start[j]; s < matrix.column_start[j + 1]; ++s) {
         Real& stiffness = part(dofs.component(j) / dim).stiffness;
@@ -100,7 +104,7 @@ class RigidMotions {
       motions[0] = i == dim - 1 ? 1 : 0;
     } else {
       const OfPart& of = of_[static_cast<std::size_t>(parts_.at(n))];
-      const auto x = [&](int k) { return (X(n)[k] + u_[n * dim + k] - of.centre[k]) / of.extent; };
+      const auto x = [&](int k) { return ((X(n)[k] - of.centre[k]) + (u_[n * dim + k] - of.shift[k])) / of.extent; };
       motions[static_cast<std::size_t>(i)] = 1;
       for (int k = dim; k < count; ++k) {
         const int p = dim == 2 ? 0 : (k - 2) % 3, q = dim == 2 ? 1 : (k - 1) % 3;  // the plane it turns
@@ -113,8 +117,9 @@ class RigidMotions {
   struct OfPart {
     Mat<Real, count> resistance = Mat<Real, count>::Zero();
     Vec<Real, dim> centre = Vec<Real, dim>::Zero();
-    Real extent = 0;     // largest distance of a node from the centre [length]
-    Real stiffness = 0;  // largest entry of the matrix
+    Vec<Real, dim> shift = Vec<Real, dim>::Zero();  // of the centre: turns are about where it is
+    Real extent = 0;                                // largest distance of a node from the centre [length]
+    Real stiffness = 0;                             // largest entry of the matrix
     Index nodes = 0;
   };
   OfPart& part(Index node) { return of_[static_cast<std::size_t>(parts_.at(node))]; }

@@ -130,7 +130,8 @@ class Course {
       now_.floor = left;
       now_.floor_by_gaps = of_gaps > residual ? 1 : 0;
     }
-    if (left > options_.tolerance * scale) warn("digits_lost", "", digits_left({}));
+    // Not before the end: the forces of a first touch are small beside those to come.
+    if (ends && now_.floor > options_.tolerance * scale) warn("digits_lost", "", digits_left({}));
     return ends && drowned();
   }
   // Whether of some converged state's forces more is left than the tolerance of the largest. Below 1e-7 the tolerance

@@ -52,9 +52,11 @@ class EnergyBooks {
 
   explicit EnergyBooks(const Scene& scene) : scene_(scene), u_(scene.displacement()) {
     // What acts already at the start, as far as it is known.
-    external_.setZero(u_.size());
-    if (scene.system().add_loads(scene.time(), external_)) external_.setZero();  // the first step says so
+    // Without inertia loads that are there at once count as put on in the first step, as the forces do that bear them.
+    external_ = scene.system().external();
     if constexpr (has_inertia<Model>) {
+      external_.setZero(u_.size());
+      if (scene.system().add_loads(scene.time(), external_)) external_.setZero();  // the first step says so
       energies_.external = start_kinetic_ = scene.inertia().kinetic_energy();
     } else {
       before_.internal = scene.system().internal();
