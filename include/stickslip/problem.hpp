@@ -313,6 +313,21 @@ typename March<Model>::Attempt March<Model>::attempt(Field& u, Real time, Real d
       newton.iterations += unfollowed;
     }
   a.first_iterations = newton.iterations;
+  if constexpr (has_lag<Model>() && !takes_passes<Model>())
+    if (!newton.trouble && system.see_first_contacts()) {
+      pass_start_ = u;
+      const NewtonReport first = newton;
+      newton = newton_.resume(system, u, time, dt);
+      newton.iterations += first.iterations;
+      ++a.passes;
+      if (newton.trouble && newton.trouble.cause != Cause::not_converged) {  // no balance with these bounds
+        system.begin_passes();
+        u = pass_start_;
+        const Index lost = newton.iterations;
+        newton = newton_.solve(system, u, time, dt);
+        newton.iterations += lost;
+      }
+    }
   if constexpr (takes_passes<Model>())
     if (!newton.trouble) a.passes = pass_again(u, time, dt, newton);
   if constexpr (has_friction<Model>)

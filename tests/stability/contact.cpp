@@ -40,7 +40,11 @@ const Hard range(
         for (const Real mu : {0.0, 0.05, 0.3, 1.0, 2.0}) {
           const Scenery s = block(mu, 0.05, [](Real t) { return 1.5 * late(t); }, {steps(1, 10), steps(2, 40)});
           Real lag = 0;
-          const Played p = completes(c, b, s, [&](const Moment& m) { lag = m.step.lag; });
+          const Played p = b.play(s, [&](const Moment& m) { lag = m.step.lag; });
+          take(c, p);
+          // From mu = 1 on a lagging law may find that it feeds back, where the block's edge comes and goes.
+          if (b.lags && mu >= 1 && p.outcome().trouble.cause == Cause::lag_feeds_back) continue;
+          for (const Outcome& outcome : p.outcomes) c.require(bool(outcome), b.name + ": " + outcome.message());
           if (lag < 1e-9)
             for (const auto& n : p.nodes)
               c.require(std::abs(n.force[0]) <= (1 + 1e-8) * mu * std::abs(n.force[1]) + 1e-12,

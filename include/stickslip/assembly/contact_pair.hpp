@@ -397,7 +397,11 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   /// `commit` do so; a step that is given up needs it.
   void begin_passes() requires(passes || lags) {
     renewed_ = committed_;
-    if constexpr (lags) own_.taken = true, own_.of_all = false;
+    if constexpr (lags) {
+      own_.taken = true;
+      own_.of_all = false;
+      std::fill(own_.pressure.begin(), own_.pressure.end(), 0.0);
+    }
     if constexpr (iterates) relaxation_ = {};
     if constexpr (is_augmented<Enforcement>) {
       for (Real& w : weight_) w /= stiffened_;
@@ -438,6 +442,17 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   void end_probe() requires lags {
     renewed_ = committed_;
     own_.taken = true;
+  }
+  /// Makes the bounds of nodes that no step before knows a pressure of see the one that has been found; false where
+  /// there are no such nodes.
+  bool see_first_contacts() requires lags {
+    bool any = false;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (!own_.taken || own_.of_all || !takes_own(k, dt_)) continue;
+      own_.pressure[k] = found(k);
+      any = any || own_.pressure[k] > 0;
+    }
+    return any;
   }
   /// Makes an iteration that has begun linearise nodes as sticking whose pressure it loses though their gaps ask for
   /// one. If `sticking`, it sets out from nodes that all stick, and lagging bounds are, until `begin_passes`, of the
@@ -674,14 +689,13 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     for (std::size_t k = 0; k < nodes_.size(); ++k) own_.pressure[k] = states_[k].pressure;
     own_.looks = 0;
   }
-  // Takes the pressures that the iteration is led to into the bounds of nodes that have none of an earlier step, while
-  // they change.
+  // Takes the pressures that the iteration is led to into the bounds, where they all are of the step's own. Where they
+  // do not settle with the iteration, they stay as they are after some of it.
   void look_ahead() requires lags {
-    const int most = own_.of_all ? most_looks_of_all : most_looks;
-    if (!own_.taken || own_.looks == most) return;
+    if (!own_.taken || !own_.of_all || own_.looks == most_looks) return;
     // Aitken's share of the way, as between passes (5.30): what friction does to its own pressure may be more than
     // that.
-    Real change = 0, largest = 0, product = 0, square = 0;
+    Real product = 0, square = 0;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       if (!takes_own(k, dt_)) continue;
       const Real last = own_.change[k];
@@ -689,17 +703,15 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
       product += last * (own_.change[k] - last);
       square += std::pow(own_.change[k] - last, 2);
     }
-    if (own_.looks < 2 || !own_.of_all)
+    if (own_.looks < 2)
       own_.share = 1;
     else if (square > 0)
       own_.share = std::clamp(-own_.share * product / square, Real(0.05), Real(2));
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       if (!takes_own(k, dt_)) continue;
       own_.pressure[k] = std::max(0.0, own_.pressure[k] + own_.share * own_.change[k]);
-      change = std::max(change, std::abs(own_.change[k]));
-      largest = std::max(largest, own_.pressure[k]);
     }
-    own_.looks = change > 1e-3 * largest ? own_.looks + 1 : most;
+    ++own_.looks;
   }
 
   // Goes on to the next search along a solution. A probe of the tangent sees the nodes as they were where the search
@@ -767,7 +779,7 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   };
 
   // The step's own pressures, for bounds that have none of an earlier step.
-  static constexpr int most_looks = 2, most_looks_of_all = 14;
+  static constexpr int most_looks = 14;
   struct Own {
     std::vector<Real> pressure{}, change{};  // that the bounds take [force]
     Real share = 1;

@@ -195,6 +195,12 @@ class System {
   void end_probe() requires with_lag {
     for_each_lag([](auto& pair) { pair.end_probe(); });
   }
+  /// Makes lagging bounds see the pressures of first contacts; false where there are none.
+  bool see_first_contacts() requires with_lag {
+    bool any = false;
+    for_each_lag([&](auto& pair) { any = pair.see_first_contacts() || any; });
+    return any;
+  }
   /// Begins an iteration that takes more care of contact nodes than one that has failed: see ContactPair.
   void begin_retry(bool sticking) requires(has_friction<Model>) {
     begin_iteration();
