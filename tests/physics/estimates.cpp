@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // The estimates of a step's errors against the errors themselves, on the paper's extrusion (theory.md, section 6.6).
-#include <stickslip/linear_solver/banded.hpp>
 #include <stickslip/advise.hpp>
+#include <stickslip/linear_solver/banded.hpp>
 #include <stickslip/stickslip.hpp>
 
 #include <doctest/doctest.h>

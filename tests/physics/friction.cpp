@@ -51,7 +51,9 @@ TEST_CASE("Quasi-Coulomb reports the lag that it has") {
     before = -force[1];
     lags.push_back(step.lag);
   });
-  CHECK(lags.front() < 0.05);  // first contact: the bound is that of the step's own pressure
+  // First contact: the bound is that of the pressure before friction, which lowers it by a seventh here.
+  CHECK(lags.front() < 0.2);
+  CHECK(lags.front() > 0.1);
   CHECK(lags.back() < 0.1);
   CHECK(lags.back() > 1e-3);
 }

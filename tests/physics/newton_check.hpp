@@ -49,8 +49,10 @@ void check(Real mu) {
     CHECK((tool - support).norm() < 1e-8 * tool.norm());
     const Real scale = residuals().empty() ? 1 : p->contact_force("tool").norm();
     residuals().push_back(step.residual * scale);
+    Index jumps = step.passes - 1;  // to the next pass, whose bounds are others
     for (std::size_t k = 0; k + 1 < residuals().size(); ++k) {
       const Real e = residuals()[k] / scale, next = residuals()[k + 1] / scale;
+      if (next > e && jumps-- > 0) continue;
       if (e > 1e-4 || e < 1e-10) continue;
       CAPTURE(step.number);
       CAPTURE(e);

@@ -664,7 +664,8 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
   static Real blur(const Vec<Real, dim>& u, const Vec<Real, dim>& X, const rigid::Pose<dim>& pose,
                    const SurfacePoint<Real, dim>& at) {
     Real reach = std::max(X.norm() + u.norm(), pose.translation.norm());
-    if (const Real bend = at.hess_gap.norm(); bend > 0) reach = std::max(reach, 1 / bend);  // to the tool's centre
+    // To the tool's centre; the curvature of a plane is round-off itself.
+    if (const Real bend = at.hess_gap.norm(); bend * reach > 1e-8) reach = std::max(reach, 1 / bend);
     return std::numeric_limits<Real>::epsilon() * reach;
   }
 
