@@ -246,6 +246,7 @@ void March<Model>::retry(Field& u, Real time, Real dt, NewtonReport& newton) req
   NewtonReport again{.trouble = system.impose(time, u)};
   const bool sticking = system.held_by_friction(problem_.u_, problem_.time_);
   system.begin_retry(sticking);
+  newton_.judge_anew();
   if (!again.trouble) again = newton_.resume(system, u, time, dt);
   again.iterations += newton.iterations;
   newton = again;

@@ -443,16 +443,17 @@ class ContactPair : public ContactRecord<Model::Kinematics::dim> {
     renewed_ = committed_;
     own_.taken = true;
   }
-  /// Makes the bounds of nodes that no step before knows a pressure of see the one that has been found; false where
-  /// there are no such nodes.
-  bool see_first_contacts() requires lags {
-    bool any = false;
+  /// Adds up what pressures were found, of all nodes and of those whose bounds no step before knows one for [force].
+  void add_up(Real& all, Real& first) const requires lags {
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
-      if (!own_.taken || own_.of_all || !takes_own(k, dt_)) continue;
-      own_.pressure[k] = found(k);
-      any = any || own_.pressure[k] > 0;
+      all += found(k);
+      if (own_.taken && !own_.of_all && takes_own(k, dt_)) first += found(k);
     }
-    return any;
+  }
+  /// Makes the bounds of the latter see the pressures found.
+  void see_first_contacts() requires lags {
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (own_.taken && !own_.of_all && takes_own(k, dt_)) own_.pressure[k] = found(k);
   }
   /// Makes an iteration that has begun linearise nodes as sticking whose pressure it loses though their gaps ask for
   /// one. If `sticking`, it sets out from nodes that all stick, and lagging bounds are, until `begin_passes`, of the

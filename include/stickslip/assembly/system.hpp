@@ -195,11 +195,13 @@ class System {
   void end_probe() requires with_lag {
     for_each_lag([](auto& pair) { pair.end_probe(); });
   }
-  /// Makes lagging bounds see the pressures of first contacts; false where there are none.
+  /// Makes lagging bounds see the pressures of first contacts; false where these bear less than a twentieth of all.
   bool see_first_contacts() requires with_lag {
-    bool any = false;
-    for_each_lag([&](auto& pair) { any = pair.see_first_contacts() || any; });
-    return any;
+    Real all = 0, first = 0;
+    for_each_lag([&](const auto& pair) { pair.add_up(all, first); });
+    if (!(first > 0.05 * all)) return false;
+    for_each_lag([](auto& pair) { pair.see_first_contacts(); });
+    return true;
   }
   /// Begins an iteration that takes more care of contact nodes than one that has failed: see ContactPair.
   void begin_retry(bool sticking) requires(has_friction<Model>) {

@@ -125,13 +125,14 @@ class Course {
   // largest `scale` so far; whether that is too much in a run that ends with this step (theory.md, eq. 6.2b).
   bool digits_lost(Real scale, Real residual, Real of_gaps, bool ends) {
     now_.largest_force = scale;
+    if (!(scale > 0)) return false;  // no forces, no digits of them
     const Real left = std::max(residual, of_gaps);
     if (left > now_.floor) {
       now_.floor = left;
       now_.floor_by_gaps = of_gaps > residual ? 1 : 0;
     }
-    // Not before the end: the forces of a first touch are small beside those to come.
-    if (ends && now_.floor > options_.tolerance * scale) warn("digits_lost", "", digits_left({}));
+    // Not before the end: the forces of a first touch are small beside those to come. Less than a digit is no matter.
+    if (ends && now_.floor > 10 * options_.tolerance * scale) warn("digits_lost", "", digits_left({}));
     return ends && drowned();
   }
   // Whether of some converged state's forces more is left than the tolerance of the largest. Below 1e-7 the tolerance

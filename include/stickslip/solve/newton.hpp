@@ -67,9 +67,12 @@ class Newton {
   template <class System>
   NewtonReport solve(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
     system.begin_iteration();
-    measured_ = false;
+    judge_anew();
     return resume(system, u, time, dt, driven);
   }
+
+  /// Makes the next factorisation be asked for its digits, as the first of each attempt is.
+  void judge_anew() { measured_ = false; }
 
   /// The same from the stiff relations' variables as they are: another pass over a step.
   template <class System>
