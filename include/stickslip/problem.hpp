@@ -240,7 +240,7 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
 /// at which they slide (theory.md, section 6.4).
 template <class Model>
 void March<Model>::retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model> {
-  if (!finds_no_balance(newton.trouble.cause)) return;
+  if (!finds_no_balance(newton.trouble.cause) || newton.without_digits) return;
   System<Mechanical>& system = *problem_.system_;
   u = problem_.u_;
   NewtonReport again{.trouble = system.impose(time, u)};

@@ -195,11 +195,11 @@ class System {
   void end_probe() requires with_lag {
     for_each_lag([](auto& pair) { pair.end_probe(); });
   }
-  /// Makes lagging bounds see the pressures of first contacts; false where these bear less than a twentieth of all.
+  /// Makes lagging bounds see the pressures of first contacts; false where these bear less than a quarter of all.
   bool see_first_contacts() requires with_lag {
     Real all = 0, first = 0;
     for_each_lag([&](const auto& pair) { pair.add_up(all, first); });
-    if (!(first > 0.05 * all)) return false;
+    if (!(first > 0.25 * all)) return false;
     for_each_lag([](auto& pair) { pair.see_first_contacts(); });
     return true;
   }
