@@ -242,6 +242,8 @@ template <class Model>
 void March<Model>::retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model> {
   if (!finds_no_balance(newton.trouble.cause) || newton.without_digits) return;
   System<Mechanical>& system = *problem_.system_;
+  if (!system.blame(problem_.u_, false, 1e13).empty())
+    return;  // what fails for lack of digits is not to be talked round
   u = problem_.u_;
   NewtonReport again{.trouble = system.impose(time, u)};
   const bool sticking = system.held_by_friction(problem_.u_, problem_.time_);

@@ -26,7 +26,7 @@ Outcome outcome() {
   o.again = answer_again<Solver>();
   for (const Matrix& m : doubtful) o.judged.push_back(answer<Solver>(m));
   o.stiff = drag<scene::Model<Solver, QuasiCoulomb>>(0, 1e9);
-  drag<scene::Model<Solver, QuasiCoulomb>>(0, 1e19, &o.hopeless);
+  o.at_most = drag<scene::Model<Solver, QuasiCoulomb>>(0, 1e19, &o.hopeless);
   return o;
 }
 

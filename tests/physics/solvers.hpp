@@ -40,6 +40,7 @@ struct Outcome {
   std::vector<Answer> judged;     ///< to `doubtful`
   std::vector<Real> stiff;        ///< end displacements of the run at penalties of 1e9 times the body's stiffness
   stickslip::Outcome hopeless{};  ///< of the run at penalties of 1e19 times
+  std::vector<double> at_most{};  ///< the same run's field
 };
 extern const Matrix positive, indefinite, singular;  // the lower triangles
 extern const std::vector<Matrix> doubtful;           // singular to round-off, and nearly so
