@@ -240,7 +240,7 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
 /// at which they slide (theory.md, section 6.4).
 template <class Model>
 void March<Model>::retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model> {
-  if (!finds_no_balance(newton.trouble.cause) || newton.without_digits) return;
+  if (!finds_no_balance(newton.trouble.cause)) return;
   System<Mechanical>& system = *problem_.system_;
   if (!system.blame(problem_.u_, false, 1e13).empty())
     return;  // what fails for lack of digits is not to be talked round

@@ -34,9 +34,8 @@ struct NewtonReport {
   Index iterations = 0;  ///< linear solutions
   Index line_search_cuts = 0;
   Index indefinite_factorizations = 0;
-  Real residual = 0;            ///< last residual over force scale [-]
-  Index negative_pivots = -1;   ///< of the last factorisation; -1: none was made, or the solver does not tell
-  bool without_digits = false;  ///< whether a matrix was refused for its condition
+  Real residual = 0;           ///< last residual over force scale [-]
+  Index negative_pivots = -1;  ///< of the last factorisation; -1: none was made, or the solver does not tell
 };
 
 /// Counts of work that outlive a step. Without padding: it stands in restart files as it is.
@@ -214,8 +213,7 @@ class Newton {
         const Stopwatch watch(system.timings.solve);
         const Real condition =
             digits_.condition(system.matrix(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
-        report.without_digits = condition > FactorDigits::limit;
-        if (report.without_digits) return {Cause::singular_matrix, {}};
+        if (condition > FactorDigits::limit) return {Cause::singular_matrix, {}};
       }
     const Index corrections = corrections_so_far();
     const bool solved = substitute(system, system.residual(), step_);
