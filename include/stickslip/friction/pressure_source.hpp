@@ -28,7 +28,7 @@ struct Symmetrised : CurrentPressure {
 };
 
 /// The normal force at the last converged step (paper, eq. 20 and 21): a symmetric tangent, and a bound that lags one
-/// step behind. At first contact it is the pressure of the step itself (theory.md, eq. 5.33).
+/// step behind. First contacts that bear much take the step's own pressure (theory.md, eq. 5.33).
 struct LastConverged {
   using Role = role::PressureSource;
   static constexpr bool follows_current = false;
