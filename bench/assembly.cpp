@@ -13,11 +13,11 @@ void assembly(benchmark::State& state) {
   bench::Forming<bench::Stretching<stickslip::QuasiCoulomb, stickslip::EigenLdlt>> forming(refine);
   forming.system.timings = {};
   for (auto _ : state) {
-    const stickslip::Trouble trouble = forming.evaluate();
-    if (trouble) return state.SkipWithError(stickslip::describe(trouble.cause));
+    const stickslip::Failure failure = forming.evaluate();
+    if (failure) return state.SkipWithError(stickslip::describe(failure.cause));
   }
   state.SetItemsProcessed(state.iterations() * 28 * refine * refine);
-  state.counters["touching"] = forming.system.contact_summary().touching;
+  state.counters["touching"] = contact_summary(forming.system.pairs()).touching;
   state.counters["contact share"] =
       forming.system.timings.contact / (forming.system.timings.contact + forming.system.timings.assembly);
 }

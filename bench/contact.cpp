@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "report.hpp"
 
-#include <stickslip/assembly/contact_kernel.hpp>
+#include <stickslip/contact/node_kernel.hpp>
 #include <stickslip/enforcement/penalty.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
@@ -30,7 +30,7 @@ auto node(const SurfacePoint<S, 2>& at, double slipped) {
   if constexpr (requires { law.mu; }) law.mu = 0.15;
   const Penalty penalty{.normal = 1e5, .tangential = 1e4};
   return contact_node<S, 2>(penalty, law, Friction{}, 1.0, at, Vec<S, 1>(S(slipped)), old,
-                            settled_pressure(penalty, 1.0, at, old), 0);
+                            penalty_pressure(penalty, 1.0, at, old), 0);
 }
 
 template <class Friction>

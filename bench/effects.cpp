@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 // The price of each effect: one scene on one mesh, an effect more from line to line; time of a Newton iteration, as a
-// ratio to the leanest. The bundles take turns, so that a slow spell of the machine hits all alike.
-#include <stickslip/inertia/generalized_alpha.hpp>
+// ratio to the leanest. The models take turns, so that a slow spell of the machine hits all alike.
 #include <stickslip/linear_solver/banded.hpp>
 #include <stickslip/stickslip.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
 
 #include <algorithm>
 #include <array>
@@ -58,7 +58,7 @@ struct Turned : Plastic {
 };
 struct Moving : Plastic {
   static constexpr const char* name = "Quasi-Coulomb + plasticity + inertia";
-  using Inertia = GeneralizedAlpha;
+  using TimeIntegration = GeneralizedAlpha;
 };
 using Effects =
     std::tuple<Lean, Touching, Lagged, Curved, Exact, OnFactor, Plastic, PowerPlastic, Rate, Turned, Moving>;
@@ -74,7 +74,7 @@ double microseconds_per_iteration(Index refine) {
   typename Problem<Model>::Parameters parameters{
       .body = mesh::rectangle({.origin = {1, 0}, .size = {20, 5}, .cells = {40 * refine, 10 * refine}}),
       .material = material};
-  if constexpr (has_inertia<Model>) parameters.inertia.density = 2.7e-9;
+  if constexpr (has_inertia<Model>) parameters.time_integration.density = 2.7e-9;
   if constexpr (has_contact<Model>) {
     Contact<Model> plate{.side = "top",
                          .tool = rigid::line({0, 5}, {-1, 0}),

@@ -19,7 +19,7 @@ using bench::add;
 template <class Kinematics, class Element, class Material, class S>
 struct One {
   static constexpr int dim = Element::dim, nodes = Element::nodes, points = Element::points, dofs = nodes * dim;
-  using State = typename Material::template State<S, typename Kinematics::Shape>;
+  using State = typename Material::template State<S, typename Kinematics::TensorPattern>;
   typename Element::template Geometry<Kinematics> geometry;
   Material material = bench::sheet_metal<Material>();
   Vec<S, dofs> u;
@@ -39,7 +39,7 @@ struct One {
     for (std::size_t p = 0; p < rule.size(); ++p)
       geometry[p] = point_geometry<Kinematics, typename Element::Cell>(Kinematics{}, X, rule[p].xi, rule[p].weight);
   }
-  Cause evaluate() { return Element::evaluate(geometry, material, u, old, 0, out); }
+  FailureCause evaluate() { return Element::evaluate(geometry, material, u, old, 0, out); }
 };
 
 /// Forces and tangent of one element.

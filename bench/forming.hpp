@@ -3,12 +3,12 @@
 
 #include "laws.hpp"
 
-#include <stickslip/assembly/system.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
 #include <stickslip/enforcement/penalty.hpp>
 #include <stickslip/friction/coulomb.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
+#include <stickslip/solve/system.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 
 namespace bench {
 
@@ -20,7 +20,7 @@ struct Stretching {
   using Material = J2Power;
   using Friction = Friction_;
   using Enforcement = stickslip::Penalty;
-  using Inertia = stickslip::Quasistatic;
+  using TimeIntegration = stickslip::Quasistatic;
   using LinearSolver = Solver;
 };
 
@@ -44,7 +44,7 @@ class Forming {
   Forming(const Forming&) = delete;
   Forming& operator=(const Forming&) = delete;
 
-  stickslip::Trouble evaluate() { return system.evaluate(u, 0.1, 0.1); }
+  stickslip::Failure evaluate() { return system.evaluate(u, 0.1, 0.1); }
 
  private:
   using Pairs = typename stickslip::System<Model>::Pairs;

@@ -37,8 +37,8 @@ void climb(const char* name, Real mu, Index steps) {
   options.end = 2;
   options.steps = steps;
   options.tolerance = 1e-8;
-  options.pass_tolerance = 1e-6;
-  options.max_passes = 60;
+  options.outer_tolerance = 1e-6;
+  options.max_outer = 60;
   const auto begin = std::chrono::steady_clock::now();
   auto march = block.march(options);
   Real lag = 0;
@@ -47,12 +47,12 @@ void climb(const char* name, Real mu, Index steps) {
   const Real exact = (slope + mu) / (1 - mu * slope);
   const bool completed = bool(march.outcome());
   std::printf("\"%s\",%g,%.2f,%d,\"%s\",", name, mu, mu / slope, steps,
-              completed ? "completed" : describe(march.outcome().trouble.cause));
+              completed ? "completed" : describe(march.outcome().failure.cause));
   if (completed)
     std::printf("%.3g,%.3g", std::abs(force / -block.reaction("top", 1) / exact - 1), lag);
   else
     std::printf(",");
-  std::printf(",%d,%d,%.2g\n", march.report().iterations, march.report().passes, seconds);
+  std::printf(",%d,%d,%.2g\n", march.report().iterations, march.report().outer_iterations, seconds);
 }
 
 int main() {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 //
-// A compile-time experiment: a list of bundles, each run on one scene, one table.
+// A compile-time experiment: a list of models, each run on one scene, one table.
 //
-// A roller is pressed into a strip of aluminium and drawn along it. The first bundle is the reference; every other one
-// changes what its name says. To add a bundle, write its type and put it on the list: what the choices mean together,
+// A roller is pressed into a strip of aluminium and drawn along it. The first model is the reference; every other one
+// changes what its name says. To add a model, write its type and put it on the list: what the choices mean together,
 // whether the tangent is symmetric, what a point has to remember and which solver may be taken, follows.
 //
 //              (   ) -> then along              Plane strain, lengths in mm, forces in N per mm of depth, stresses in
@@ -71,7 +71,7 @@ using Sweep =
     std::tuple<Reference, Lagged, Extrapolating, Iterated, Multipliers, SymmetricMultipliers, Capped, Smooth, Rotating>;
 // ------------------------------------------------------------------------------------------------------------------
 
-// The numbers of each choice, once for all bundles that make it.
+// The numbers of each choice, once for all models that make it.
 void set(Coulomb& law) {
   law = {.mu = 0.2};
 }
@@ -128,9 +128,9 @@ void print(const Row& row, std::optional<Vec<Real, 2>>& reference) {
   const RunReport& r = row.report;
   const double seconds = r.timings.assembly + r.timings.contact + r.timings.factorization + r.timings.solve;
   std::printf("%-34s %9.2f %9.2f %8.2f %6d %6d %6d %9.1f %-9s %5zu %5zu\n", Model::name, row.force[0], row.force[1],
-              100 * (row.force - *reference).norm() / reference->norm(), r.steps, r.iterations, r.passes, 1e3 * seconds,
-              system_symmetry<Model> == Symmetry::symmetric ? "symmetric" : "general", Body<Model>::bytes_per_point,
-              ContactPair<Model>::bytes_per_node);
+              100 * (row.force - *reference).norm() / reference->norm(), r.steps, r.iterations, r.outer_iterations,
+              1e3 * seconds, system_symmetry<Model> == Symmetry::symmetric ? "symmetric" : "general",
+              Body<Model>::bytes_per_point, ContactPair<Model>::bytes_per_node);
 }
 
 int main(int argc, char** argv) {
@@ -143,7 +143,7 @@ int main(int argc, char** argv) {
       std::fprintf(
           std::strcmp(argv[i], "--help") ? stderr : stdout,
           "usage: policy_sweep [--refine N] [--steps N]\n"
-          "Runs one scene with every bundle of a list and prints a table. --refine divides the elements N times "
+          "Runs one scene with every model of a list and prints a table. --refine divides the elements N times "
           "in each\ndirection, --steps takes N equal steps (100).\n");
       return std::strcmp(argv[i], "--help") ? 2 : 0;
     }
@@ -151,9 +151,9 @@ int main(int argc, char** argv) {
   }
   std::printf(
       "A roller pressed into a strip by 0.3 mm and drawn along by 4 mm; force on the roller at the end.\n"
-      "difference: from the first bundle's; time: of assembly, contact and solution; history: bytes of a point of "
+      "difference: from the first model's; time: of assembly, contact and solution; history: bytes of a point of "
       "the body\nand of a contact node.\n\n%-34s %9s %9s %8s %6s %6s %6s %9s %-9s %5s %5s\n",
-      "bundle", "along/N", "up/N", "diff./%", "steps", "iter.", "passes", "time/ms", "tangent", "point", "node");
+      "model", "along/N", "up/N", "diff./%", "steps", "iter.", "passes", "time/ms", "tangent", "point", "node");
   std::optional<Vec<Real, 2>> reference;
   bool all = true;
   std::apply(

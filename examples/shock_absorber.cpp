@@ -18,8 +18,8 @@
 #include "common/benchmark.hpp"
 #include "common/self_penetration.hpp"
 
-#include <stickslip/inertia/generalized_alpha.hpp>
 #include <stickslip/stickslip.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
 
 using namespace stickslip;
 
@@ -27,7 +27,7 @@ using namespace stickslip;
 struct Tube : QuasistaticDefaults {
   using Kinematics = Axisymmetric;
   using Material = FiniteJ2<LinearHardening>;
-  using Inertia = GeneralizedAlpha;
+  using TimeIntegration = GeneralizedAlpha;
 };
 
 // How much of it, decided at run time.
@@ -52,7 +52,7 @@ int invert(const examples::Options& options) {
   Problem<Model> absorber{{
       .body = tube,
       .material = {.young = 67000, .poisson = 0.33, .hardening = {.yield = 15 * scale, .modulus = 44.7 * scale}},
-      .inertia = {.density = 2.7e-9, .scheme = chung_hulbert(p.at("spectral-radius"))},
+      .time_integration = {.density = 2.7e-9, .scheme = chung_hulbert(p.at("spectral-radius"))},
       .contacts = {on_die},
   }};
   absorber.drive("top", 1, [](Real t) { return -speed * t; });
@@ -69,7 +69,7 @@ int invert(const examples::Options& options) {
        .march = {.end = travel / speed,
                  .initial = 0.02 / speed,
                  .largest = 0.5 / speed,
-                 .wanted_iterations = 6,
+                 .target_iterations = 6,
                  .stops = {10 / speed, 20 / speed, 30 / speed, 40 / speed}},
        .travel_mm = [&] { return speed * absorber.time(); },
        .force_N = [&] { return -absorber.reaction("top", 1); },

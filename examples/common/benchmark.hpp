@@ -61,8 +61,8 @@ struct Benchmark {
 /// The books, where they are kept.
 template <class Model, Books books>
 using LedgerOf =
-    stickslip::Only<books == Books::kept, std::optional<stickslip::verify::EnergyLedger<stickslip::MechanicsOf<Model>>>,
-                    Benchmark>;
+    stickslip::StoredIf<books == Books::kept,
+                        std::optional<stickslip::verify::EnergyBalance<stickslip::MechanicsOf<Model>>>, Benchmark>;
 
 /// All that a run depends on, for its restart file.
 template <class Model, Books books>
@@ -94,7 +94,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark be
   benchmark.march.tolerance = options.tolerance;
   benchmark.march.lag_tolerance = options.lag_tolerance;
   benchmark.march.step_tolerance = options.step_tolerance;
-  benchmark.march.space_every = options.space_every;
+  benchmark.march.mesh_error_interval = options.mesh_error_interval;
   Outputs outputs(options, benchmark.labels.name);
   Record r{.labels = benchmark.labels, .symmetric_storage = Problem<Model>::symmetric_storage};
   r.elements = problem.body().mesh().cell_count();

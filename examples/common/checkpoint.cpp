@@ -58,17 +58,17 @@ int conclude_stopped(const Options& options, const std::string& program, int ste
 }
 
 void require_same(stickslip::Archive& archive, const Options& options) {
-  using stickslip::exact;
-  archive.same("friction law", options.friction);
-  archive.same("linear solver", options.solver);
-  archive.same("mu", exact(options.mu));
-  archive.same("refinement", std::to_string(options.refine));
-  archive.same("tolerance", exact(options.tolerance));
-  archive.same("lag tolerance", exact(options.lag_tolerance));
-  archive.same("step tolerance", exact(options.step_tolerance));
-  archive.same("interval of the mesh's error", std::to_string(options.space_every));
-  for (const auto& [name, value] : options.parameters) archive.same(name, exact(value));
-  archive.same("output", options.output.empty() ? "none" : "a folder");
+  using stickslip::round_trip;
+  archive.check_equal("friction law", options.friction);
+  archive.check_equal("linear solver", options.solver);
+  archive.check_equal("mu", round_trip(options.mu));
+  archive.check_equal("refinement", std::to_string(options.refine));
+  archive.check_equal("tolerance", round_trip(options.tolerance));
+  archive.check_equal("lag tolerance", round_trip(options.lag_tolerance));
+  archive.check_equal("step tolerance", round_trip(options.step_tolerance));
+  archive.check_equal("interval of the mesh's error", std::to_string(options.mesh_error_interval));
+  for (const auto& [name, value] : options.parameters) archive.check_equal(name, round_trip(value));
+  archive.check_equal("output", options.output.empty() ? "none" : "a folder");
 }
 
 }  // namespace examples

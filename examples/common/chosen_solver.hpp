@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A linear solver that is chosen as the program runs: one bundle for all that want the same storage, where a bundle
+// A linear solver that is chosen as the program runs: one model for all that want the same storage, where a model
 // each would take minutes to compile. It is a policy like any other, so the library need not know of it.
 #pragma once
 

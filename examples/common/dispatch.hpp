@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// From names on the command line to bundles put together at compile time.
+// From names on the command line to models put together at compile time.
 #pragma once
 
 #include "chosen_solver.hpp"
@@ -45,7 +45,7 @@ struct With : Base {
   using LinearSolver = Solver_;
 };
 
-/// The bundles that programs offer: every valid one, but for a symmetric system no full matrix and nothing to correct.
+/// The models that programs offer: every valid one, but for a symmetric system no full matrix and nothing to correct.
 template <class Model>
 constexpr bool is_offered() {
   using namespace stickslip;
@@ -53,7 +53,7 @@ constexpr bool is_offered() {
     return false;
   else
     return system_symmetry<Model> == Symmetry::general ||
-           (matrix_storage<Model> == Symmetry::symmetric && !takes_corrections<SolverOf<Model>>);
+           (matrix_storage<Model> == Symmetry::symmetric && !accepts_couplings<SolverOf<Model>>);
 }
 
 /// The solvers that take the system of the options' friction law.
@@ -69,7 +69,7 @@ std::vector<std::string> able(const Options& options, const Frictions& frictions
   return found;
 }
 
-/// Calls run.template operator()<Model>() for the bundle that the options name.
+/// Calls run.template operator()<Model>() for the model that the options name.
 template <class Base, class Frictions, class Solvers, class Run>
 int dispatch(const Options& options, const Frictions& frictions, const Solvers& solvers, Run&& run) {
   int code = -1;
@@ -78,7 +78,7 @@ int dispatch(const Options& options, const Frictions& frictions, const Solvers& 
     if (options.friction != friction.name) return;
     solvers.for_each([&]<class S>(Named<S> solver) {
       if constexpr (is_offered<With<Base, F, S>>()) {
-        // A family's member itself, so that it and the family make one bundle.
+        // A family's member itself, so that it and the family make one model.
         using Model = With<Base, F, stickslip::SolverOf<With<Base, F, S>>>;
         if (options.solver == solver.name) code = run.template operator()<Model>();
       }

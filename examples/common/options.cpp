@@ -106,8 +106,8 @@ std::string joined(const std::vector<std::string>& names) {
 std::optional<Options> parse(int argc, char** argv, const Program& program) {
   namespace po = boost::program_options;
   Options o;
-  std::string mu, refine, steps, tolerance, lag_tolerance, step_tolerance, space_every, wished, output, checkpoint,
-      checkpoint_every, restart;
+  std::string mu, refine, steps, tolerance, lag_tolerance, step_tolerance, mesh_error_interval, wished, output,
+      checkpoint, checkpoint_every, restart;
   const std::string about_friction = "friction law: " + joined(program.frictions),
                     about_solver = "linear solver: " + joined(program.solvers),
                     about_mu = "friction coefficient (default " + short_number(program.mu) + "; 0 with frictionless)",
@@ -126,7 +126,8 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
   add("tolerance", &tolerance, "X", about_tolerance);
   add("lag-tolerance", &lag_tolerance, "X", "estimated error by lag that automatic steps aim at (default none)");
   add("step-tolerance", &step_tolerance, "X", "the same of the error by the size of the steps (default none)");
-  add("mesh-error-every", &space_every, "N", "estimate the error of the mesh every N steps, 0 for never (default 10)");
+  add("mesh-error-every", &mesh_error_interval, "N",
+      "estimate the error of the mesh every N steps, 0 for never (default 10)");
   add("advise", &wished, "X", "say how an error of the force below X would be reached in the least time");
   add("output", &output, "DIR", "write VTU, CSV and pictures there");
   add("json", &o.json, "FILE", "write the results there, - for standard output");
@@ -181,7 +182,8 @@ std::optional<Options> parse(int argc, char** argv, const Program& program) {
   o.lag_tolerance = wanted("lag-tolerance", lag_tolerance);
   o.step_tolerance = wanted("step-tolerance", step_tolerance);
   if (values.count("mesh-error-every"))
-    o.space_every = integer("mesh-error-every", space_every, 0, 1'000'000, "a whole number from 0 to 1000000");
+    o.mesh_error_interval =
+        integer("mesh-error-every", mesh_error_interval, 0, 1'000'000, "a whole number from 0 to 1000000");
   if (values.count("advise")) o.wished = number("advise", wished, 1e-9, 0.5, "a number from 1e-9 to 0.5");
   if (values.count("output") && output.empty()) refuse("output", output, "the name of a folder");
   o.output = output;

@@ -30,7 +30,7 @@ struct Options {
   int steps = 0;  ///< 0: automatic
   double tolerance = 0;
   double lag_tolerance = 0, step_tolerance = 0;  ///< 0: none
-  int space_every = 10;                          ///< steps from one estimate of the mesh's error to the next; 0: none
+  int mesh_error_interval = 10;                  ///< steps from one estimate of the mesh's error to the next; 0: none
   double wished = 0;                             ///< error of the force to advise on; 0: none
   std::filesystem::path output;                  ///< empty: write no files
   std::string json;                              ///< empty: none; "-": standard output

@@ -53,6 +53,10 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
   j["rejected_steps"] = r.report.rejected_steps;
   j["factorizations"] = r.report.work.factorizations;
   j["indefinite_factorizations"] = r.report.work.indefinite_factorizations;
+  j["line_search_cuts"] = r.report.work.line_search_cuts;
+  j["evaluations"] = r.report.work.evaluations;
+  j["tangents_unused"] = r.report.work.tangents_unused;
+  j["evaluations_repeated"] = r.report.work.evaluations_repeated;
   j["inner_iterations"] = r.report.work.corrections;
   j["seconds_total"] = r.seconds;
   j["seconds_assembly"] = r.report.timings.assembly;
@@ -70,7 +74,7 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
   j["estimated_error_lag"] = errors.lag;
   j["estimated_error_time"] = errors.time;
   j["estimated_error_penetration"] = errors.penetration;
-  if (options.space_every > 0)
+  if (options.mesh_error_interval > 0)
     j["estimated_error_space"] = errors.space;
   else
     j["estimated_error_space"] = nullptr;
@@ -138,15 +142,15 @@ void draw_results(const Options& options, const Record& r) {
 }  // namespace
 
 void Record::serialize(stickslip::Archive& archive) {
-  archive.any_length("history, time", time_s);
-  archive.any_length("history, travel", travel_mm);
-  archive.any_length("history, force", force_N);
-  archive.any_length("history, steps", steps);
+  archive.resizable("history, time", time_s);
+  archive.resizable("history, travel", travel_mm);
+  archive.resizable("history, force", force_N);
+  archive.resizable("history, steps", steps);
   archive("history, seconds", seconds);
   std::vector<double> penetrates;
   if (self_penetration_mm) penetrates.push_back(*self_penetration_mm);
-  archive.any_length("history, passes through itself", penetrates);
-  if (!archive.gives()) return;
+  archive.resizable("history, passes through itself", penetrates);
+  if (!archive.loading()) return;
   if (time_s.size() != steps.size() + 1 || travel_mm.size() != time_s.size() || force_N.size() != time_s.size())
     throw std::runtime_error(archive.origin + " does not fit: its histories are not of one length");
   self_penetration_mm.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a benchmark run leaves behind, free of the bundle's type, and how it is written.
+// What a benchmark run leaves behind, free of the model's type, and how it is written.
 #pragma once
 
 #include "options.hpp"

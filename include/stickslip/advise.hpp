@@ -13,19 +13,19 @@
 
 namespace stickslip {
 
-/// What a run did, and what its bundle is: all that `advise` looks at.
+/// Report of a run and properties of its model: the input of `advise`.
 struct RunSummary {
   enum class Bound { none, current, lagged, extrapolated };
   RunReport report{};
-  Bound bound = Bound::none;               ///< whose pressure stands in it
-  Symmetry storage = Symmetry::symmetric;  ///< of the matrices that were factorised
+  Bound bound = Bound::none;               ///< pressure in the slip bound
+  Symmetry storage = Symmetry::symmetric;  ///< of the factorised matrices
 
   template <class Model>
   static RunSummary of(const March<Model>& march) {
     RunSummary run{.report = march.report(), .storage = matrix_storage<Model>};
     if constexpr (has_friction<Model>) {
       using Friction = typename Model::Friction;
-      run.bound = !has_lag<Model>() || takes_passes<Model>() ? Bound::current : Bound::lagged;
+      run.bound = !has_lag<Model>() || has_outer_iterations<Model>() ? Bound::current : Bound::lagged;
       if constexpr (requires { Friction::Pressure::lag_order; })
         if (Friction::Pressure::lag_order == 2) run.bound = Bound::extrapolated;
     }
@@ -33,28 +33,28 @@ struct RunSummary {
   }
 };
 
-/// A way to the accuracy that was wished.
+/// A recommendation for the wished accuracy.
 struct Advice {
-  std::string friction;  ///< pressure in the bound: "current", "last converged" or "extrapolated"; "" without friction
-  std::string solver;    ///< what the solver factorises: "symmetric", "symmetric, corrected" or "general"
+  std::string friction;  ///< pressure source: "current", "last converged" or "extrapolated"; "" without friction
+  std::string solver;    ///< matrix to factorise: "symmetric", "symmetric, corrected" or "general"
   Index steps = 0;
-  Real seconds = 0;   ///< expected, on the same machine
-  std::string words;  ///< the whole of it for a person
+  Real seconds = 0;   ///< expected, on the same machine [s]
+  std::string words;  ///< the recommendation in words
 };
 
-/// Tells from the estimates and timings of a coarse run which pressure source, number of steps and kind of solver would
-/// bring the error of the force below `wished` [-] in the least time (theory.md, section 6.6): errors by lag and step
-/// size go with the step (the extrapolated bound's lag with its square), and the time of an iteration stays. The
-/// estimates hold within a factor of two or three, so twice each is provided for. Throws std::invalid_argument if the
-/// run has no step, or the wish is not a number between 0 and 1.
+/// Recommends from the error estimates and timings of a coarse run the pressure source, number of steps and kind of
+/// solver that bring the error of the force below `wished` [-] in the least time (theory.md, section 6.6): errors by
+/// lag and step size are proportional to the step size (the lag of the extrapolated slip bound to its square), and the
+/// time per iteration is constant. The estimates hold within a factor of two or three, so each is doubled. Throws
+/// std::invalid_argument if the run has no step, or `wished` is not a number between 0 and 1.
 inline Advice advise(const RunSummary& run, Real wished) {
   if (!(wished > 0 && wished < 1)) throw std::invalid_argument("advise: the wished error must lie between 0 and 1");
   const RunReport& r = run.report;
   if (r.steps < 1 || r.iterations < 1) throw std::invalid_argument("advise: the run has not taken a step");
   using Bound = RunSummary::Bound;
   constexpr Real reserve = 2;
-  // Flops of an LU over those of a symmetric factor, and of its substitutions; back-substitutions of a corrected
-  // solution where none were counted.
+  // Flops of an LU over those of a symmetric factor, and likewise of the substitutions; back-substitutions per
+  // corrected solution if none were counted.
   constexpr Real general_cost = 2, usual_corrections = 6;
 
   const Real corrections = r.work.corrections > 0 ? Real(r.work.corrections) / r.iterations : usual_corrections;
@@ -69,7 +69,7 @@ inline Advice advise(const RunSummary& run, Real wished) {
 
   std::vector<Advice> ways;
   const auto add = [&](const char* friction, const char* solver, Real steps, Real an_iteration) {
-    // Fewer than a quarter of the run's steps would be a guess: they may not converge.
+    // Fewer than a quarter of the run's steps may not converge.
     const Index n = static_cast<Index>(std::ceil(std::clamp(steps, 0.25 * r.steps, 1e9)));
     ways.push_back({friction, solver, n, n * an_iteration * r.iterations / r.steps, {}});
   };

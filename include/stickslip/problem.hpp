@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/assembly/stress_recovery.hpp>
 #include <stickslip/base/brief.hpp>
+#include <stickslip/body/stress_recovery.hpp>
 #include <stickslip/mesh/coincident_nodes.hpp>
 #include <stickslip/scene.hpp>
-#include <stickslip/solve/course.hpp>
-#include <stickslip/solve/energy_books.hpp>
+#include <stickslip/solve/energy_gain.hpp>
 #include <stickslip/solve/newton.hpp>
+#include <stickslip/solve/outer_iteration.hpp>
+#include <stickslip/solve/run_state.hpp>
 
 #include <cmath>
 #include <iterator>
@@ -25,7 +26,7 @@ class Problem;
 /// A run in progress: an input range of converged steps. Each increment computes one step; the range ends at the end of
 /// the run or at a failure, which `outcome()` tells.
 template <class Model>
-class March : public Course {
+class March : public RunState {
  public:
   class Iterator {
    public:
@@ -71,27 +72,30 @@ class March : public Course {
  private:
   friend class Problem<Model>;
   using Mechanical = MechanicsOf<Model>;
+  using Iterate = typename System<Mechanical>::Iterate;
   March(Problem<Model>& problem, const MarchOptions& options);
   struct Attempt {
     NewtonReport newton{};
-    Index passes = 1, first_iterations = 0;
+    Index outer_iterations = 1, first_iterations = 0;
   };
   struct Reason {
-    Trouble trouble{};
+    Failure failure{};
     std::string detail{};
   };
   void advance();
-  Attempt attempt(Field& u, Real time, Real dt);
-  Reason doubt(const Field& u, const StepReport& step, const NewtonReport& newton);
-  Reason explain(Trouble trouble, Real time, Real dt);
-  Index pass_again(Field& u, Real time, Real dt, NewtonReport& newton);
-  bool feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact);
+  Attempt attempt(Iterate& iterate, Field& u, Real time, Real dt);
+  Reason doubt(Iterate& iterate, const Field& u, const StepReport& step, const NewtonReport& newton);
+  Reason explain(Failure failure, Real time, Real dt);
+  Index iterate_outer(Iterate& iterate, Field& u, Real time, Real dt, NewtonReport& newton);
+  bool lag_is_unstable(Iterate& iterate, const Field& u, Real time, Real dt, const ContactSummary& contact);
   void watch_energy(const StepReport& step);
-  void retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model>;
+  void retry(Iterate& iterate, Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model>;
+  void bound_first(Iterate& iterate, Field& u, Real time, Real dt, Attempt& attempt);
 
   // Whether Newton's method went astray, at forces that could all be evaluated.
-  static bool finds_no_balance(Cause cause) {
-    return cause == Cause::singular_matrix || cause == Cause::stalled || cause == Cause::not_converged;
+  static bool finds_no_balance(FailureCause cause) {
+    return cause == FailureCause::singular_matrix || cause == FailureCause::stalled ||
+           cause == FailureCause::not_converged;
   }
   void require_own() const {
     if (state_ != problem_.revision_)
@@ -103,17 +107,17 @@ class March : public Course {
 
   Scene<Mechanical>& problem_;
   Index state_;  // revision of the converged state that the next step starts from
-  Newton<SolverOf<Model>, has_near_tangent<Model>()> newton_;
-  Field trial_, driven_, pass_start_;
+  Newton<SolverOf<Model>, has_inexact_tangent<Model>()> newton_;
+  Field trial_, driven_, outer_guess_;
   std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
-  static constexpr bool keeps_books = has_inertia<Model> && TellsEnergies<Mechanical>;
-  using Books = std::optional<EnergyBooks<Mechanical, Scene<Mechanical>>>;
-  [[no_unique_address]] Only<keeps_books, Books, March> books_;  // to see what the time scheme gains
-  [[no_unique_address]] Only<keeps_books, std::string, Books> gained_;
+  static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
+  using Gain = std::optional<EnergyGain<Mechanical, Scene<Mechanical>>>;
+  [[no_unique_address]] StoredIf<keeps_energy, Gain, March> gain_;  // to see what the time scheme gains
+  [[no_unique_address]] StoredIf<keeps_energy, std::string, Gain> gained_;
 };
 
 namespace detail {
-// Nothing, for a bundle whose mechanics break a rule: the rule's sentence is enough.
+// Nothing, for a model whose mechanics break a rule: the rule's sentence is enough.
 template <class Model>
 struct SceneOf {
   struct type {};
@@ -126,7 +130,7 @@ struct SceneOf<Model> {
 };
 }  // namespace detail
 
-/// A scene of the bundle `Model` and the means to solve it. The bundle decides what there is (docs/policies.md); the
+/// A scene of the model `Model` and the means to solve it. The model decides what there is (docs/policies.md); the
 /// parameters say how much.
 template <class Model>
 class Problem : public detail::SceneOf<Model>::type {
@@ -145,14 +149,15 @@ class Problem : public detail::SceneOf<Model>::type {
 
 template <class Model>
 March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
-    : Course(options, problem.time_),
+    : RunState(options, problem.time_),
       problem_(problem),
       state_(problem.revision_),
       newton_(NewtonOptions{.tolerance = options.tolerance,
                             .max_iterations = options.max_iterations,
                             .line_search = options.line_search}) {
-  if constexpr (takes_passes<Model>() || has_lag<Model>()) pass_start_ = problem.u_;
-  if (options.space_every > 0) stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
+  if constexpr (has_outer_iterations<Model>() || has_lag<Model>()) outer_guess_ = problem.u_;
+  if (options.mesh_error_interval > 0)
+    stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
   problem_.prepare();
   if (const auto apart = mesh::coincident_nodes(problem_.body_.mesh()); apart.nodes > 0)
     now_.warnings.add("coincident_nodes", "",
@@ -166,71 +171,79 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
       if (const std::string text = pair.warning_of_size(); !text.empty())
         now_.warnings.add("tool_smaller_than_mesh", pair.name(), text, 0);
     });
-  if constexpr (keeps_books)
-    if (options.energy_gain > 0) books_.emplace(problem_);
+  if constexpr (keeps_energy)
+    if (options.energy_gain > 0) gain_.emplace(problem_);
 }
 
-/// Passes over a step whose first one has converged, until another one would change nothing beyond the tolerance
-/// (theory.md, section 5.8). Their iterations are added to `newton`, but step control looks at those of the first pass.
+/// Outer iterations over a step whose first one has converged, until another one would change nothing beyond the
+/// tolerance (theory.md, section 5.8). Their iterations are added to `newton`, but step control looks at the first's.
 template <class Model>
-Index March<Model>::pass_again([[maybe_unused]] Field& u, [[maybe_unused]] Real time, [[maybe_unused]] Real dt,
-                               [[maybe_unused]] NewtonReport& newton) {
-  Index passes = 1;
-  if constexpr (takes_passes<Model>()) {
-    System<Mechanical>& system = *problem_.system_;
-    Real before = 0;
-    const auto unsettled = [&] { return system.unsettled(problem_.u_, u, problem_.time_, time); };
-    for (Real now = unsettled(); now > options_.pass_tolerance; now = unsettled()) {
-      if (passes == options_.max_passes) {
-        newton.trouble = {Cause::passes_failed, {}};
+Index March<Model>::iterate_outer([[maybe_unused]] Iterate& iterate, [[maybe_unused]] Field& u,
+                                  [[maybe_unused]] Real time, [[maybe_unused]] Real dt,
+                                  [[maybe_unused]] NewtonReport& newton) {
+  Index outer_iterations = 1;
+  if constexpr (has_outer_iterations<Model>()) {
+    OuterIteration outer(problem_.pairs_);
+    const auto residual = [&] {
+      return outer.residual([&](const auto& pair) {
+        return has_inertia<Model> && is_augmented<typename Model::Enforcement>
+                   ? pair.largest_motion(problem_.u_, u, problem_.time_, time)
+                   : std::numeric_limits<Real>::infinity();
+      });
+    };
+    for (Real now = residual(); now > options_.outer_tolerance; now = residual()) {
+      if (outer_iterations == options_.max_outer) {
+        newton.failure = {FailureCause::outer_failed, {}};
         break;
       }
-      // Multipliers settle by a factor that falls with the stiffness, so that no value of it need be asked for.
-      if (before > 0 && now > 0.25 * before) system.stiffen(4);
-      before = now;
-      system.renew();
-      pass_start_ = u;
-      NewtonReport again = newton_.resume(system, u, time, dt);
-      ++passes;
-      while (again.trouble && system.hold_back()) {
+      outer.next(now);
+      outer_guess_ = u;
+      NewtonReport again = newton_.solve(iterate, u, time, dt);
+      ++outer_iterations;
+      while (again.failure && outer.backtrack()) {
         newton.iterations += again.iterations;
-        u = pass_start_;
-        again = newton_.solve(system, u, time, dt);
-        ++passes;
+        u = outer_guess_;
+        iterate.restart();
+        newton_.judge_anew();
+        again = newton_.solve(iterate, u, time, dt);
+        ++outer_iterations;
       }
       newton.iterations += again.iterations;
       newton.residual = again.residual;
       newton.negative_pivots = again.negative_pivots >= 0 ? again.negative_pivots : newton.negative_pivots;
-      newton.trouble = again.trouble;
-      if (newton.trouble) break;
+      newton.failure = again.failure;
+      if (newton.failure) break;
     }
   }
-  return passes;
+  return outer_iterations;
 }
 
-/// Whether a lagging bound feeds back on its own pressure in the converged step (theory.md, eq. 5.31). Asked where the
-/// lag has swung to and fro without falling, and at the end of the run; the step is left as it was.
+/// Whether a lagging bound feeds back on its own pressure in the converged step (theory.md, eq. 5.16). Asked where the
+/// lag oscillates without falling, and at the end of the run; the step is left as it was.
 template <class Model>
-bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactSummary& contact) {
+bool March<Model>::lag_is_unstable(Iterate& iterate, const Field& u, Real time, Real dt,
+                                   const ContactSummary& contact) {
   if constexpr (has_lag<Model>()) {
-    if (!options_.watch_lag || takes_passes<Model>()) return false;
-    if (!swings(contact, time)) return false;
-    System<Mechanical>& system = *problem_.system_;
-    const Real before = system.bound_change();
+    if (!options_.detect_lag_instability || has_outer_iterations<Model>()) return false;
+    if (!lag_oscillates(contact, time)) return false;
     bool grows = true;
-    // A part of the way, where the whole of it is too far for an iteration that starts at the step's solution.
-    for (const Real share : {1.0, 0.25, 0.0625}) {
-      system.probe(share);
-      pass_start_ = u;
-      const NewtonReport probed =
-          share == 1 ? newton_.resume(system, pass_start_, time, dt) : newton_.solve(system, pass_start_, time, dt);
-      if (probed.trouble) continue;
-      grows = system.answer() >= system.stable_below() * share * before;
-      break;
+    {
+      LagProbe probe(problem_.pairs_);
+      // A part of the way, where the whole of it is too far for an iteration that starts at the step's solution.
+      for (const Real part : {1.0, 0.25, 0.0625}) {
+        probe.perturb_bound(part);
+        outer_guess_ = u;
+        if (part < 1) {
+          iterate.restart();
+          newton_.judge_anew();
+        }
+        if (newton_.solve(iterate, outer_guess_, time, dt).failure) continue;
+        grows = probe.pressure_response() >= probe.critical_feedback() * part * probe.lag();
+        break;
+      }
     }
-    system.end_probe();
-    now_.swings = 0;
-    return grows || system.evaluate(u, time, dt);
+    now_.oscillation_count = 0;
+    return problem_.system_->evaluate(u, time, dt) || grows;
   }
   return false;
 }
@@ -239,28 +252,50 @@ bool March<Model>::feeds_back(const Field& u, Real time, Real dt, const ContactS
 /// pressure on the way stick at first, and all do where friction alone holds the body, which nothing does at an iterate
 /// at which they slide (theory.md, section 6.4).
 template <class Model>
-void March<Model>::retry(Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model> {
-  if (!finds_no_balance(newton.trouble.cause)) return;
-  System<Mechanical>& system = *problem_.system_;
-  if (!system.blame(problem_.u_, false, 1e13).empty())
+void March<Model>::retry(Iterate& iterate, Field& u, Real time, Real dt,
+                         NewtonReport& newton) requires has_friction<Model> {
+  if (!finds_no_balance(newton.failure.cause)) return;
+  if (!problem_.diagnosis_->roundoff_source(problem_.u_, false, 1e13).empty())
     return;  // what fails for lack of digits is not to be talked round
   u = problem_.u_;
-  NewtonReport again{.trouble = system.impose(time, u)};
-  const bool sticking = system.held_by_friction(problem_.u_, problem_.time_);
-  system.begin_retry(sticking);
+  NewtonReport again{.failure = problem_.system_->prescribed().apply_constraints(time, u)};
+  iterate.retry(problem_.diagnosis_->held_by_friction(problem_.u_, problem_.time_));
   newton_.judge_anew();
-  if (!again.trouble) again = newton_.resume(system, u, time, dt);
+  if (!again.failure) again = newton_.solve(iterate, u, time, dt);
   again.iterations += newton.iterations;
   newton = again;
 }
 
-/// Warns where the time scheme has gained energy (theory.md, eq. 7.16).
+/// Solves the step once more where first contacts bear much, with the slip bounds of the pressures found (theory.md,
+/// eq. 5.11). Where there is no balance with these, the solution without them stays.
+template <class Model>
+void March<Model>::bound_first([[maybe_unused]] Iterate& iterate, [[maybe_unused]] Field& u, [[maybe_unused]] Real time,
+                               [[maybe_unused]] Real dt, [[maybe_unused]] Attempt& attempt) {
+  if constexpr (has_lag<Model>() && !has_outer_iterations<Model>()) {
+    if (!bound_first_contacts(problem_.pairs_)) return;
+    NewtonReport& newton = attempt.newton;
+    outer_guess_ = u;
+    Index iterations = newton.iterations;
+    newton = newton_.solve(iterate, u, time, dt);
+    newton.iterations = iterations += newton.iterations;
+    ++attempt.outer_iterations;
+    if (!newton.failure || newton.failure.cause == FailureCause::not_converged) return;
+    for_each_lagging(problem_.pairs_, [](auto& pair) { pair.reset_augmentations(); });
+    u = outer_guess_;
+    iterate.restart();
+    newton_.judge_anew();
+    newton = newton_.solve(iterate, u, time, dt);
+    newton.iterations += iterations;
+  }
+}
+
+/// Warns where the time scheme has gained energy (theory.md, eq. 7.17).
 template <class Model>
 void March<Model>::watch_energy([[maybe_unused]] const StepReport& step) {
-  if constexpr (keeps_books) {
-    if (!books_) return;
-    books_->update(step);
-    const Real gain = books_->gain();
+  if constexpr (keeps_energy) {
+    if (!gain_) return;
+    gain_->update(step);
+    const Real gain = gain_->gain();
     if (!(gain > options_.energy_gain)) return;
     gained_ = "the time scheme has gained " + brief(gain, 2) +
               " of the largest of the work done and the energy at the start; take smaller steps, or a spectral radius "
@@ -273,129 +308,129 @@ template <class Model>
 void March<Model>::serialize(Archive& archive) {
   problem_.prepare();
   problem_.serialize(archive);
-  if (archive.gives()) state_ = problem_.revision_;
-  archive.same("solver", type_name<SolverOf<Model>>());
+  if (archive.loading()) state_ = problem_.revision_;
+  archive.check_equal("solver", type_name<SolverOf<Model>>());
   newton_.serialize(archive, *problem_.system_);
   now_.work = newton_.counts;
-  Course::serialize(archive);
-  if constexpr (keeps_books)
-    if (books_) {
-      books_->serialize(archive, "run, books");
-      if (archive.gives()) gained_.clear();
+  RunState::serialize(archive);
+  if constexpr (keeps_energy)
+    if (gain_) {
+      gain_->serialize(archive, "run, energy gain");
+      if (archive.loading()) gained_.clear();
     }
-  if (!archive.gives()) return;
+  if (!archive.loading()) return;
   newton_.counts = now_.work;
   problem_.system_->timings = now_.report.timings;
 }
 
-/// Solves for the step that ends at `time`, and looks whether its way and its friction can be what they seem.
+/// Solves for the step that ends at `time`, and checks its path and its friction.
 template <class Model>
-typename March<Model>::Attempt March<Model>::attempt(Field& u, Real time, Real dt) {
+typename March<Model>::Attempt March<Model>::attempt(Iterate& iterate, Field& u, Real time, Real dt) {
   System<Mechanical>& system = *problem_.system_;
   Attempt a;
   NewtonReport& newton = a.newton;
   newton_.known_scale = now_.largest_force;
-  const bool guessed = problem_.guess(dt, u);
-  newton.trouble = system.impose(time, u);
-  if constexpr (has_friction<Model>)
-    if (!newton.trouble) newton.trouble = system.set_out(problem_.u_, problem_.time_, time);
-  if (newton.trouble) return a;
-  if (guessed) {
-    newton = newton_.solve(system, u, time, dt);
+  newton_.judge_anew();
+  const bool extrapolated = problem_.extrapolate(dt, u);
+  newton.failure = system.prescribed().apply_constraints(time, u);
+  if (!newton.failure) {
+    const Stopwatch watch(system.timings.contact);
+    newton.failure =
+        first_failure(problem_.pairs_, [&](auto& pair) { return pair.begin_step(problem_.u_, problem_.time_, time); });
+  }
+  if (newton.failure) return a;
+  if (extrapolated) {
+    newton = newton_.solve(iterate, u, time, dt);
   } else {
     driven_ = u - problem_.u_;
     u = problem_.u_;
-    newton = newton_.solve(system, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
+    newton = newton_.solve(iterate, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
   }
   if constexpr (has_friction<Model> && !has_inertia<Model>)
-    if (newton.trouble) retry(u, time, dt, newton);
-  if constexpr (has_friction<Model>)
-    if (!newton.trouble && system.must_follow(problem_.u_, u)) {
+    if (newton.failure) retry(iterate, u, time, dt, newton);
+  if constexpr (Model::Kinematics::dim == 3) {
+    bool must = false;
+    if (!newton.failure)
+      for_each_friction(problem_.pairs_, [&](auto& pair) { must = pair.must_follow(problem_.u_, u) || must; });
+    if (must) {
       const Index unfollowed = newton.iterations;
-      newton = newton_.resume(system, u, time, dt);
+      newton = newton_.solve(iterate, u, time, dt);
       newton.iterations += unfollowed;
     }
+  }
   a.first_iterations = newton.iterations;
-  if constexpr (has_lag<Model>() && !takes_passes<Model>())
-    if (!newton.trouble && system.see_first_contacts()) {
-      pass_start_ = u;
-      const NewtonReport first = newton;
-      newton = newton_.resume(system, u, time, dt);
-      newton.iterations += first.iterations;
-      ++a.passes;
-      if (newton.trouble && newton.trouble.cause != Cause::not_converged) {  // no balance with these bounds
-        system.begin_passes();
-        u = pass_start_;
-        const Index lost = newton.iterations;
-        newton = newton_.solve(system, u, time, dt);
-        newton.iterations += lost;
-      }
-    }
-  if constexpr (takes_passes<Model>())
-    if (!newton.trouble) a.passes = pass_again(u, time, dt, newton);
-  if constexpr (has_friction<Model>)
-    if (!newton.trouble) newton.trouble = system.slide_turned();
-  if constexpr (has_contact<Model>)
-    if (!newton.trouble && options_.watch_ways)
-      newton.trouble = system.passed_through(problem_.u_, u, problem_.time_, time);
+  if (!newton.failure) bound_first(iterate, u, time, dt, a);
+  if (!newton.failure) a.outer_iterations += iterate_outer(iterate, u, time, dt, newton) - 1;
+  if (!newton.failure) newton.failure = first_failure(problem_.pairs_, [](auto& pair) { return pair.slip_turned(); });
+  if (!newton.failure && options_.detect_tunnelling)
+    for_each_contact(problem_.pairs_, [&](auto& pair) {
+      if (!newton.failure) newton.failure = pair.check_tunnelling(problem_.u_, u, problem_.time_, time);
+    });
   return a;
 }
 
 /// Whether a step that has converged is no answer; then why.
 template <class Model>
-typename March<Model>::Reason March<Model>::doubt(const Field& u, const StepReport& step, const NewtonReport& newton) {
+typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field& u, const StepReport& step,
+                                                  const NewtonReport& newton) {
   System<Mechanical>& system = *problem_.system_;
+  Diagnosis<Mechanical>& diagnosis = *problem_.diagnosis_;
+  // Of the solution, for the next evaluations may be of other states.
+  const Real scale = std::max(system.forces().scale(), now_.largest_force);
+  const Real left = newton.residual > 0 ? system.forces().norm : 0;  // not of a body that only moves
   // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
   if constexpr (!has_inertia<Model>) {
     driven_ = u - problem_.u_;
-    if (!problem_.proven_ || driven_.lpNorm<Eigen::Infinity>() > system.extent() || system.loose_part(false) >= 0)
-      if (const Index part = system.free_part(u, &driven_); part >= 0)
-        return {{Cause::unsupported, {}}, system.part_name(part)};
+    if (!problem_.proven_ || driven_.template lpNorm<Eigen::Infinity>() > system.body().extent() ||
+        diagnosis.loose_part(false) >= 0) {
+      if (!system.has_tangent()) {
+        ++newton_.counts.evaluations;
+        ++newton_.counts.evaluations_repeated;
+        if (const Failure f = iterate.add_tangent(u, step.time, step.dt)) return {f, {}};
+      }
+      if (const Index part = diagnosis.free_part(u, &driven_); part >= 0)
+        return {{FailureCause::unsupported, {}}, diagnosis.part_name(part)};
+    }
   }
-  if constexpr (has_lag<Model>())
-    if (feeds_back(u, step.time, step.dt, step.contact)) return {{Cause::lag_feeds_back, {}}, {}};
-  const Real scale = std::max(system.force_scale(), now_.largest_force);
-  const Real left = newton.residual > 0 ? system.residual_norm() : 0;  // not of a body that only moves
-  if (digits_lost(scale, left, system.blurred(), step.time >= options_.end)) {
+  if (lag_is_unstable(iterate, u, step.time, step.dt, step.contact)) return {{FailureCause::lag_unstable, {}}, {}};
+  if (digits_lost(scale, left, diagnosis.gap_roundoff(), step.time >= options_.end)) {
     const bool by_gaps = now_.floor_by_gaps != 0;
-    return {{Cause::digits_lost, {}}, digits_left(system.blame(u, by_gaps, by_gaps ? 1e8 : 1e3))};
+    return {{FailureCause::digits_lost, {}}, digits_left(diagnosis.roundoff_source(u, by_gaps, by_gaps ? 1e8 : 1e3))};
   }
   return {};
 }
 
 /// The reason why no step is small enough, by name where the scene tells it. Spoils the last evaluation.
 template <class Model>
-typename March<Model>::Reason March<Model>::explain(Trouble trouble, Real time, [[maybe_unused]] Real dt) {
+typename March<Model>::Reason March<Model>::explain(Failure failure, Real time, [[maybe_unused]] Real dt) {
   System<Mechanical>& system = *problem_.system_;
-  if (trouble.cause == Cause::contradicting_supports) return {trouble, system.contradiction(time)};
-  [[maybe_unused]] std::string sliding;
-  if constexpr (has_friction<Model>) {
-    if (trouble.cause == Cause::slide_turns) return {trouble, system.turned_too_far()};
-    sliding = system.sliding_contacts();
-  }
+  Diagnosis<Mechanical>& diagnosis = *problem_.diagnosis_;
+  if (failure.cause == FailureCause::contradicting_supports) return {failure, system.prescribed().contradiction(time)};
+  if (failure.cause == FailureCause::slide_turns) return {failure, turning_contacts(problem_.pairs_)};
   if constexpr (!has_inertia<Model>) {
+    std::string sliding = sliding_contacts(problem_.pairs_);
     if (!system.evaluate(problem_.u_, problem_.time_, dt))
-      if (const Index part = system.free_part(problem_.u_); part >= 0)
-        return {{Cause::unsupported, {}}, system.part_name(part)};
-    if constexpr (has_friction<Model>)
-      if (finds_no_balance(trouble.cause) && system.held_by_friction(problem_.u_, problem_.time_))
-        return {{Cause::slides, {}}, sliding.empty() ? system.sliding_contacts() : sliding};
+      if (const Index part = diagnosis.free_part(problem_.u_); part >= 0)
+        return {{FailureCause::unsupported, {}}, diagnosis.part_name(part)};
+    if (has_friction<Model> && finds_no_balance(failure.cause) &&
+        diagnosis.held_by_friction(problem_.u_, problem_.time_))
+      return {{FailureCause::slides, {}}, sliding.empty() ? sliding_contacts(problem_.pairs_) : sliding};
   }
-  if (finds_no_balance(trouble.cause) || trouble.cause == Cause::element_inverted) {
-    const bool singular = trouble.cause == Cause::singular_matrix;
-    const std::string blamed = system.blame(problem_.u_, false, singular ? 1e8 : drowned() ? 1e3 : 1e13);
-    if (drowned()) return {{Cause::digits_lost, {}}, digits_left(blamed)};
-    if (!blamed.empty()) return {{Cause::digits_lost, {}}, blamed};
+  if (finds_no_balance(failure.cause) || failure.cause == FailureCause::element_inverted) {
+    const bool singular = failure.cause == FailureCause::singular_matrix;
+    const std::string source = diagnosis.roundoff_source(problem_.u_, false, singular ? 1e8 : drowned() ? 1e3 : 1e13);
+    if (drowned()) return {{FailureCause::digits_lost, {}}, digits_left(source)};
+    if (!source.empty()) return {{FailureCause::digits_lost, {}}, source};
   }
-  return {trouble, {}};
+  return {failure, {}};
 }
 
 template <class Model>
 void March<Model>::advance() {
-  if constexpr (keeps_books)
+  if constexpr (keeps_energy)
     if (options_.refuse_energy_gain && outcome_ && !gained_.empty()) {
       before_ = now_;
-      return fail({Cause::energy_gained, {}}, problem_.time_, now_.step.dt, 0, gained_);
+      return fail({FailureCause::energy_gained, {}}, problem_.time_, now_.step.dt, 0, gained_);
     }
   if (!begin_step(newton_.counts)) return;
   require_own();
@@ -404,63 +439,66 @@ void March<Model>::advance() {
   Field& u = trial_;
   Index rejected = 0;
   const auto end = [&](Reason reason, Real dt, Index attempts) {
-    if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
-    fail(reason.trouble, problem_.time_, dt, attempts, std::move(reason.detail));
+    fail(reason.failure, problem_.time_, dt, attempts, std::move(reason.detail));
   };
   if constexpr (!has_inertia<Model>)
     if (!problem_.proven_)
-      if (const Index part = system.loose_part(true); part >= 0)
-        return end({{Cause::unsupported, {}}, system.part_name(part)}, now_.control.next() - problem_.time_, 0);
+      if (const Index part = problem_.diagnosis_->loose_part(true); part >= 0)
+        return end({{FailureCause::unsupported, {}}, problem_.diagnosis_->part_name(part)},
+                   now_.control.next() - problem_.time_, 0);
   for (;;) {
     const Real time = now_.control.next();
     const Real dt = time - problem_.time_;
-    const Attempt tried = attempt(u, time, dt);
-    const NewtonReport& newton = tried.newton;
-    tally(tried.passes, newton.iterations, newton_.counts, system.timings);
-    Real local_error = 0, error = 0;
-    bool too_coarse = false;
-    if constexpr (has_inertia<Model>) {
-      if (!newton.trouble) local_error = system.local_error();
-      if (options_.time_tolerance > 0) error = local_error / options_.time_tolerance;
-      if (error > 2 && options_.steps == 0) {
-        now_.control.reject(time, error);
-        too_coarse = !now_.control.too_small();
+    Failure failure;
+    {
+      Iterate iterate(system);
+      const Attempt tried = attempt(iterate, u, time, dt);
+      const NewtonReport& newton = tried.newton;
+      failure = newton.failure;
+      count_attempt(tried.outer_iterations, newton.iterations, newton_.counts, system.timings);
+      Real local_error = 0, error = 0;
+      bool too_coarse = false;
+      if constexpr (has_inertia<Model>) {
+        if (!failure) local_error = problem_.inertia_->local_error(system.dofs(), system.forces().contact);
+        if (options_.time_tolerance > 0) error = local_error / options_.time_tolerance;
+        if (error > 2 && options_.steps == 0) {
+          now_.control.reject(time, error);
+          too_coarse = !now_.control.too_small();
+        }
       }
-    }
-    if (!newton.trouble && !too_coarse) {
-      const ContactSummary contact = system.contact_summary();
-      StepReport step{.time = time,
-                      .dt = dt,
-                      .iterations = newton.iterations,
-                      .rejected = rejected,
-                      .passes = tried.passes,
-                      .negative_pivots = newton.negative_pivots,
-                      .residual = newton.residual,
-                      .contact = contact,
-                      .local_error = local_error,
-                      .work = std::abs(system.internal().dot(u - problem_.u_)) + contact.dissipated};
-      estimate(step);
-      if (Reason reason = doubt(u, step, newton); reason.trouble) return end(std::move(reason), dt, rejected + 1);
-      if constexpr (decltype(newton_)::tells_pivots)
-        if (newton.iterations == 0) step.negative_pivots = now_.negative_pivots;
-      watch_pivots(step.negative_pivots);
-      accept(step, tried.first_iterations, error);
-      problem_.accept(u, time, dt);
-      state_ = problem_.revision_;
-      if (stress_ && now_.report.steps % options_.space_every == 0) {
-        const Stopwatch watch(system.timings.estimates);
-        stress_->update(problem_.body_, u);
-        step.errors.space = stress_->relative();
+      if (!failure && !too_coarse) {
+        const ContactSummary contact = contact_summary(problem_.pairs_);
+        StepReport step{.time = time,
+                        .dt = dt,
+                        .iterations = newton.iterations,
+                        .rejected = rejected,
+                        .outer_iterations = tried.outer_iterations,
+                        .negative_pivots = newton.negative_pivots,
+                        .residual = newton.residual,
+                        .contact = contact,
+                        .local_error = local_error,
+                        .work = std::abs(system.forces().internal.dot(u - problem_.u_)) + contact.dissipated};
+        if (Reason reason = doubt(iterate, u, step, newton); reason.failure)
+          return end(std::move(reason), dt, rejected + 1);
+        if (newton_.tells_pivots && newton.iterations == 0) step.negative_pivots = now_.negative_pivots;
+        iterate.accept();
+        problem_.accept(u, time, dt);
+        state_ = problem_.revision_;
+        watch_energy(step);
+        complete_step(step, tried.first_iterations, error, [&] {
+          if (!stress_ || now_.report.steps % options_.mesh_error_interval != 0) return now_.step.errors.space;
+          const Stopwatch watch(system.timings.estimates);
+          stress_->update(problem_.body_, u);
+          return stress_->relative();
+        });
+        return;
       }
-      watch_energy(step);
-      return book(step);
+      ++rejected;
+      ++now_.report.rejected_steps;
+      if (too_coarse) continue;
     }
-    ++rejected;
-    ++now_.report.rejected_steps;
-    if constexpr (takes_passes<Model>() || has_lag<Model>()) system.begin_passes();
-    if (too_coarse) continue;
     now_.control.reject(time);
-    if (now_.control.too_small()) return end(explain(newton.trouble, time, dt), dt, rejected);
+    if (now_.control.too_small()) return end(explain(failure, time, dt), dt, rejected);
   }
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/assembly/system.hpp>
 #include <stickslip/base/brief.hpp>
 #include <stickslip/base/nodal.hpp>
+#include <stickslip/solve/diagnosis.hpp>
+#include <stickslip/solve/system.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -33,9 +34,9 @@ class Scene {
     typename BodyType::MeshType body;
     [[no_unique_address]] typename Model::Kinematics kinematics{};
     typename Model::Material material{};
-    [[no_unique_address]] typename Model::Inertia inertia{};
+    [[no_unique_address]] typename Model::TimeIntegration time_integration{};
     [[no_unique_address]] DampingOf<Model> damping{};
-    [[no_unique_address]] Only<with_contact, Contacts<Model>, Scene> contacts{};
+    [[no_unique_address]] StoredIf<with_contact, Contacts<Model>, Scene> contacts{};
   };
 
   /// Throws std::invalid_argument, naming the input, before anything is computed.
@@ -43,7 +44,7 @@ class Scene {
       : body_(std::move(parameters.body), validated(parameters.kinematics), validated(parameters.material)) {
     if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
     if constexpr (has_inertia<Model>)
-      inertia_.emplace(body_, validated(parameters.inertia), validated(parameters.damping), contact_nodes());
+      inertia_.emplace(body_, validated(parameters.time_integration), validated(parameters.damping), contact_nodes());
     u_.setZero(body_.mesh().node_count() * dim);
     last_increment_ = reactions_ = u_;
     if constexpr (has_inertia<Model>) increment_before_ = u_;
@@ -162,31 +163,31 @@ class Scene {
   void prepare() {
     if (system_ && !changed_) return;
     const Timings spent = system_ ? system_->timings : Timings{};
+    diagnosis_.reset();
     system_.reset();
     ++numberings_;
-    if constexpr (has_inertia<Model>)
-      system_ = std::make_unique<System<Model>>(body_, pairs_, *inertia_, driven_, loads_, numberings_);
-    else
-      system_ = std::make_unique<System<Model>>(body_, pairs_, inertia_, driven_, loads_, numberings_);
+    system_ = std::make_unique<System<Model>>(body_, pairs_, inertia_term(), driven_, loads_, numberings_);
+    diagnosis_ = std::make_unique<Diagnosis<Model>>(*system_);
     system_->timings = spent;
     changed_ = false;
     proven_ = false;
     if (time_ != 0) return;
-    const auto require = [](const Trouble& t) {
-      if (t) throw std::invalid_argument(std::string("the start is not a state: ") + describe(t.cause));
-    };
-    if constexpr (with_contact) {
-      for_each_contact(pairs_, [&](auto& pair) { pair.start(body_.mesh(), u_, time_); });
-      require(system_->measure(u_));
-    }
-    if constexpr (has_inertia<Model>) require(system_->start(u_, time_));
+    if (const Failure f = system_->start(u_, time_))
+      throw std::invalid_argument(std::string("the start is not a state: ") + describe(f.cause));
+  }
+  InertiaForces<Model>& inertia_term() {
+    if constexpr (has_inertia<Model>)
+      return *inertia_;
+    else
+      return inertia_;
   }
 
   // Throws where two supports contradict each other on the way to a time, as far as a look at some times tells.
   void require_agreement(Real end) const {
     constexpr int looks = 64;
     for (int k = 0; k <= looks; ++k)
-      if (const std::string fault = system_->contradiction(time_ + (end - time_) * k / looks); !fault.empty())
+      if (const std::string fault = system_->prescribed().contradiction(time_ + (end - time_) * k / looks);
+          !fault.empty())
         refuse_supports(fault);
   }
   [[noreturn]] static void refuse_supports(const std::string& fault) {
@@ -196,7 +197,7 @@ class Scene {
 
   // Guesses the displacements after a step dt: the last increment again; for lack of one, with inertia those of
   // velocity and acceleration. Without either they are the converged ones, and it is false.
-  bool guess(Real dt, Field& u) {
+  bool extrapolate(Real dt, Field& u) {
     u = u_;
     const Real h = last_dt_;
     if (h > 0) u += dt / h * last_increment_;
@@ -223,21 +224,21 @@ class Scene {
     time_ = time;
     proven_ = true;
     ++revision_;
-    for (Index c = 0; c < system_->dofs().components(); ++c) reactions_[c] = system_->reaction(c);
+    reactions_ = system_->forces().reaction;
   }
 
   // What the scene is of, and its converged state.
   void serialize(Archive& archive) {
-    archive.same("kinematics", type_name<typename Model::Kinematics>());
-    archive.same("element", type_name<typename Model::Element>());
-    archive.same("material", type_name<typename Model::Material>());
-    archive.same("friction", type_name<typename Model::Friction>());
-    archive.same("enforcement", type_name<typename Model::Enforcement>());
-    if constexpr (with_contact) archive.same("tool", type_name<ToolOf<Model>>());
-    archive.same("inertia", type_name<typename Model::Inertia>());
-    archive.same("damping", type_name<DampingOf<Model>>());
-    archive.same("mesh", describe(body_.mesh()));
-    archive.same("supports", system_->dofs().describe());
+    archive.check_equal("kinematics", type_name<typename Model::Kinematics>());
+    archive.check_equal("element", type_name<typename Model::Element>());
+    archive.check_equal("material", type_name<typename Model::Material>());
+    archive.check_equal("friction", type_name<typename Model::Friction>());
+    archive.check_equal("enforcement", type_name<typename Model::Enforcement>());
+    if constexpr (with_contact) archive.check_equal("tool", type_name<ToolOf<Model>>());
+    archive.check_equal("inertia", type_name<typename Model::TimeIntegration>());
+    archive.check_equal("damping", type_name<DampingOf<Model>>());
+    archive.check_equal("mesh", fingerprint(body_.mesh()));
+    archive.check_equal("supports", system_->dofs().fingerprint());
     archive("displacement", u_);
     archive("last increment", last_increment_);
     archive("time", time_);
@@ -250,7 +251,7 @@ class Scene {
       inertia_->serialize(archive);
     }
     if constexpr (with_contact) for_each_contact(pairs_, [&](auto& pair) { pair.serialize(archive); });
-    if (!archive.gives()) return;
+    if (!archive.loading()) return;
     proven_ = time_ != 0;
     ++revision_;
   }
@@ -304,11 +305,13 @@ class Scene {
 
   BodyType body_;
   [[no_unique_address]] typename System<Model>::Pairs pairs_;
-  [[no_unique_address]] Only<has_inertia<Model>, std::optional<InertiaForces<Model>>, BodyType> inertia_;
+  [[no_unique_address]] std::conditional_t<has_inertia<Model>, std::optional<InertiaForces<Model>>, NoInertiaForces>
+      inertia_;
   std::vector<SideValue> driven_, loads_;
   std::unique_ptr<System<Model>> system_;
+  std::unique_ptr<Diagnosis<Model>> diagnosis_;
   Field u_, last_increment_, reactions_;
-  [[no_unique_address]] Only<has_inertia<Model>, Field, Scene> increment_before_;
+  [[no_unique_address]] StoredIf<has_inertia<Model>, Field, Scene> increment_before_;
   Real time_ = 0;
   Real last_dt_ = 0;              // 0: there is no increment to extrapolate
   Real increment_before_dt_ = 0;  // 0: nor a bend

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-/// Everything that needs Eigen alone, save the iterative solvers (linear_solver/eigen_iterative.hpp). They, what stands
-/// on other libraries (linear_solver/cholmod.hpp, umfpack.hpp, mumps.hpp, banded.hpp, material/tabulated_hardening.hpp,
-/// geometry/triangulated.hpp), io/ and verify/ are included by those who use them.
+/// Everything that needs only Eigen, except the iterative solvers (linear_solver/eigen_iterative.hpp). Include these,
+/// the headers that need other libraries (linear_solver/cholmod.hpp, umfpack.hpp, mumps.hpp, banded.hpp,
+/// material/tabulated_hardening.hpp, geometry/triangulated.hpp), io/ and verify/ where you use them.
 
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/hex8.hpp>
@@ -22,7 +22,6 @@
 #include <stickslip/geometry/extruded.hpp>
 #include <stickslip/geometry/profile.hpp>
 #include <stickslip/geometry/revolution.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
@@ -36,17 +35,18 @@
 #include <stickslip/mesh/extrude.hpp>
 #include <stickslip/mesh/quarter_disc.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 
 namespace stickslip {
 
-/// What a quasi-static bundle starts from; derive and override.
+/// Defaults of a quasi-static model; derive and override.
 struct QuasistaticDefaults {
   using Kinematics = PlaneStrain;
   using Element = MeanDilatation<Quad4>;
   using Material = Hencky;
   using Friction = Frictionless;
   using Enforcement = Penalty;
-  using Inertia = Quasistatic;
+  using TimeIntegration = Quasistatic;
   using LinearSolver = EigenDirect;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/friction/anisotropic_coulomb.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 
-struct Bundle : Sound {
+struct Model : Sound {
   using Friction = AnisotropicCoulomb;
 #ifdef CONTROL
   using Kinematics = ThreeDimensional;
@@ -13,4 +13,4 @@ struct Bundle : Sound {
 #endif
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 #include <stickslip/linear_solver/conjugate_gradients.hpp>
 
-struct Bundle : Sound {
+struct Model : Sound {
   using LinearSolver = ConjugateGradients;
 #ifdef CONTROL
   using Friction = QuasiCoulomb;
 #endif
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

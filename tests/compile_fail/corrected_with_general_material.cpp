@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 // A solver that takes a triangle, and the couplings of sliding nodes apart.
 struct Correcting : DeclaredSolver<Symmetry::symmetric> {
@@ -11,9 +11,9 @@ struct NonAssociated : Hencky {
   static constexpr Symmetry symmetry = Symmetry::general;
 #endif
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Material = NonAssociated;
   using LinearSolver = Correcting;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

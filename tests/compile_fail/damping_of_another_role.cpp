@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
-#include <stickslip/inertia/generalized_alpha.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
 
 struct Viscous {
 #ifdef CONTROL
   using Role = role::Damping;
 #else
-  using Role = role::Inertia;
+  using Role = role::TimeIntegration;
 #endif
   static constexpr bool active = true;
   Real tau = 1;
 };
-struct Bundle : Sound {
-  using Inertia = GeneralizedAlpha;
+struct Model : Sound {
+  using TimeIntegration = GeneralizedAlpha;
   using Damping = Viscous;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 #include <stickslip/damping/stiffness_damping.hpp>
-#include <stickslip/inertia/generalized_alpha.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
 
-struct Bundle : Sound {
+struct Model : Sound {
   using Damping = StiffnessDamping;
 #ifdef CONTROL
-  using Inertia = GeneralizedAlpha;
+  using TimeIntegration = GeneralizedAlpha;
 #endif
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
-#include <stickslip/inertia/generalized_alpha.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
 
 struct Viscous {
   using Role = role::Damping;
@@ -10,9 +10,9 @@ struct Viscous {
   Real tau = 1;
 #endif
 };
-struct Bundle : Sound {
-  using Inertia = GeneralizedAlpha;
+struct Model : Sound {
+  using TimeIntegration = GeneralizedAlpha;
   using Damping = Viscous;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 // A brick by its contract alone.
 struct Brick {
@@ -12,10 +12,10 @@ struct Brick {
   };
 };
 static_assert(ElementPolicy<Brick>);
-struct Bundle : Sound {
+struct Model : Sound {
 #ifndef CONTROL
   using Element = Brick;
 #endif
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

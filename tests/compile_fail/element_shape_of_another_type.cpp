@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Cell : Quad4 {
 #ifndef CONTROL
@@ -10,8 +10,8 @@ struct Quad : FullyIntegrated<Quad4> {
   using Role = role::Element;
   using Cell = ::Cell;
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Element = Quad;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Quad : FullyIntegrated<Quad4> {
 #ifndef CONTROL
   static constexpr int points = 0;
 #endif
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Element = Quad;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 #include <stickslip/enforcement/augmented_lagrangian.hpp>
 
 struct Multipliers : AugmentedLagrangian {
 #ifndef CONTROL
-  Real augmented(const Real& pressure) const { return pressure; }  // must be a Memory
+  Real augmented(const Real& pressure) const {
+    return pressure;
+  }  // must be a Memory
 #endif
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Enforcement = Multipliers;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

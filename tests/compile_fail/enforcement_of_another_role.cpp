@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Barrier {
 #ifdef CONTROL
@@ -15,8 +15,8 @@ struct Barrier {
   NormalForce<Real> normal_force(const Real&, Real, const Memory<Real>&) const;
   Real stick_stiffness(Real) const;
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Enforcement = Barrier;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

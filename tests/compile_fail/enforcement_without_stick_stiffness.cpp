@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Barrier {
   using Role = role::Enforcement;
@@ -13,8 +13,8 @@ struct Barrier {
   Real stick_stiffness(Real) const;
 #endif
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Enforcement = Barrier;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Sticky {
 #ifdef CONTROL
@@ -10,10 +10,10 @@ struct Sticky {
   using Law = Sticky;
   using Pressure = CurrentPressure;
   static constexpr bool active = true, depends_on_pressure = true, depends_on_slip = false;
-  FrictionBound<Real> bound(const FrictionPoint<Real>&) const;
+  FrictionBound<Real> bound(const InterfaceState<Real>&) const;
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Friction = Sticky;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

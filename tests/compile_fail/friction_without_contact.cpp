@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
-struct Bundle : Sound {
+struct Model : Sound {
   using Enforcement = NoContact;
 #ifdef CONTROL
   using Friction = Frictionless;
 #endif
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

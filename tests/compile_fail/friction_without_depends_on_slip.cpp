@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Sticky {
   using Role = role::Friction;
@@ -9,10 +9,10 @@ struct Sticky {
 #ifdef CONTROL
   static constexpr bool depends_on_slip = false;
 #endif
-  FrictionBound<Real> bound(const FrictionPoint<Real>&) const;
+  FrictionBound<Real> bound(const InterfaceState<Real>&) const;
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Friction = Sticky;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

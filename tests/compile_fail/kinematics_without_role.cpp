@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Slab {
 #ifdef CONTROL
   using Role = role::Kinematics;
 #endif
   static constexpr bool hoop = false;
-  using Shape = Planar;
+  using TensorPattern = Planar;
   static constexpr int dim = 2;
-  Real measure(const Vec<Real, 2>&) const;
+  Real volume_factor(const Vec<Real, 2>&) const;
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Kinematics = Slab;
   using Enforcement = NoContact;
   using Friction = Frictionless;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

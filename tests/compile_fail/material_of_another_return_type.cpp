@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Rubber {
   using Role = role::Material;
   static constexpr Symmetry symmetry = Symmetry::symmetric;
-  template <class S, class Shape>
+  template <class S, class TensorPattern>
   struct State {};
-  template <class S, class Shape>
+  template <class S, class TensorPattern>
 #ifdef CONTROL
-  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>&, const State<S, Shape>&, Real) const;
+  MaterialResponse<S, TensorPattern, State<S, TensorPattern>> respond(const Tensor<S, TensorPattern>&,
+                                                                      const State<S, TensorPattern>&, Real) const;
 #else
-  Tensor<S, Shape> respond(const Tensor<S, Shape>&, const State<S, Shape>&, Real) const;
+  Tensor<S, TensorPattern> respond(const Tensor<S, TensorPattern>&, const State<S, TensorPattern>&, Real) const;
 #endif
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Material = Rubber;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Rubber {
   using Role = role::Material;
   static constexpr Symmetry symmetry = Symmetry::symmetric;
-  template <class S, class Shape>
+  template <class S, class TensorPattern>
   struct State {
 #ifndef CONTROL
     State() = delete;
 #endif
   };
-  template <class S, class Shape>
-  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>&, const State<S, Shape>&, Real) const;
+  template <class S, class TensorPattern>
+  MaterialResponse<S, TensorPattern, State<S, TensorPattern>> respond(const Tensor<S, TensorPattern>&,
+                                                                      const State<S, TensorPattern>&, Real) const;
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Material = Rubber;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 #include <stickslip/linear_solver/mumps.hpp>
 
-struct Bundle : Sound {
+struct Model : Sound {
   using LinearSolver = MumpsLdlt;
 #ifdef CONTROL
   using Friction = QuasiCoulomb;
 #endif
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

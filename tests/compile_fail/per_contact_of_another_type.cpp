@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Sticky {
   using Role = role::Friction;
@@ -9,13 +9,13 @@ struct Sticky {
   static constexpr bool depends_on_pressure = true;
   static constexpr bool depends_on_slip = false;
 #ifdef CONTROL
-  FrictionBound<Real> bound(const FrictionPoint<Real>& at) const;
+  FrictionBound<Real> bound(const InterfaceState<Real>& at) const;
 #else
-  Real bound(const FrictionPoint<Real>& at) const;
+  Real bound(const InterfaceState<Real>& at) const;
 #endif
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Friction = PerContact<Coulomb, Sticky, Frictionless>;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

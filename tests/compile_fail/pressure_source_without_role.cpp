@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Smoothed {
 #ifdef CONTROL
@@ -11,8 +11,8 @@ struct Smoothed {
   static Real pressure(const Real&, const Memory<Real>&, Real);
   static Memory<Real> advance(const Real&, const Memory<Real>&, Real);
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Friction = WithPressure<Coulomb, Smoothed>;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

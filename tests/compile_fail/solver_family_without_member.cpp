@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Family {
   using Role = role::LinearSolver;
@@ -11,8 +11,8 @@ struct Family {
       Hencky;
 #endif
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using LinearSolver = Family;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

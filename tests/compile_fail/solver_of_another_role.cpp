@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Frontal {
 #ifdef CONTROL
   using Role = role::LinearSolver;
 #else
-  using Role = role::Inertia;
+  using Role = role::TimeIntegration;
 #endif
   static constexpr Symmetry accepts = Symmetry::general;
   static constexpr Symmetry storage = Symmetry::general;
@@ -13,8 +13,8 @@ struct Frontal {
   Factorization factorize(const SparseView&);
   bool solve(const Real*, Real*);
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using LinearSolver = Frontal;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct Frontal {
   using Role = role::LinearSolver;
@@ -11,8 +11,8 @@ struct Frontal {
   Factorization factorize(const SparseView&);
   bool solve(const Real*, Real*);
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using LinearSolver = Frontal;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
-struct Bundle : Sound {
+struct Model : Sound {
   using LinearSolver = DeclaredSolver<Symmetry::symmetric>;
 #ifdef CONTROL
   using Friction = QuasiCoulomb;
 #endif
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
 struct NonAssociated : Hencky {
 #ifndef CONTROL
   static constexpr Symmetry symmetry = Symmetry::general;
 #endif
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Friction = Frictionless;
   using Material = NonAssociated;
   using LinearSolver = DeclaredSolver<Symmetry::symmetric>;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

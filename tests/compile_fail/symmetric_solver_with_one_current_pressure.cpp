@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
-struct Bundle : Sound {
+struct Model : Sound {
 #ifdef CONTROL
   using Friction = PerContact<QuasiCoulomb, Frictionless>;
 #else
@@ -10,4 +10,4 @@ struct Bundle : Sound {
   using LinearSolver = DeclaredSolver<Symmetry::symmetric>;
 };
 
-static_assert(CheckModel<Bundle>::ok);
+static_assert(CheckModel<Model>::ok);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
-#include <stickslip/assembly/contact_pair.hpp>
+#include <stickslip/contact/contact_pair.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 
-struct Bundle : Sound {
+struct Model : Sound {
   using Kinematics = ThreeDimensional;
   using Element = FullyIntegrated<Hex8>;
 #ifdef CONTROL
@@ -15,4 +15,4 @@ struct Bundle : Sound {
 #endif
 };
 
-static_assert(sizeof(ContactPair<Bundle>) > 0);
+static_assert(sizeof(ContactPair<Model>) > 0);

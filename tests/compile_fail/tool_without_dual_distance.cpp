@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "bundle.hpp"
+#include "model.hpp"
 
-#include <stickslip/assembly/contact_pair.hpp>
+#include <stickslip/contact/contact_pair.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 
@@ -13,10 +13,10 @@ struct Floor {
   Distance<Dual<3>, 3> distance(const Vec<Dual<3>, 3>& x) const;
 #endif
 };
-struct Bundle : Sound {
+struct Model : Sound {
   using Kinematics = ThreeDimensional;
   using Element = FullyIntegrated<Hex8>;
   using Tool = Floor;
 };
 
-static_assert(sizeof(ContactPair<Bundle>) > 0);
+static_assert(sizeof(ContactPair<Model>) > 0);

@@ -11,8 +11,8 @@ import tempfile
 
 program, pressed_block = sys.argv[1:]
 KEYS = """benchmark friction mu solver kinematics material elements unknowns symmetric_storage completed steps iterations
-rejected_steps factorizations indefinite_factorizations inner_iterations seconds_total seconds_assembly seconds_contact seconds_factorization
-seconds_solve seconds_estimates factor_mb peak_memory_mb max_penetration_mm max_slip_mm max_plastic_strain max_lag estimated_error_lag
+rejected_steps factorizations indefinite_factorizations line_search_cuts evaluations tangents_unused evaluations_repeated
+inner_iterations seconds_total seconds_assembly seconds_contact seconds_factorization seconds_solve seconds_estimates factor_mb peak_memory_mb max_penetration_mm max_slip_mm max_plastic_strain max_lag estimated_error_lag
 estimated_error_time estimated_error_penetration estimated_error_space final_force_N warnings history""".split()
 checks = 0
 

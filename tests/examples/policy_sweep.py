@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSL-1.0
-"""The table of the compile-time experiment: every bundle runs, and the columns say what they must."""
+"""The table of the compile-time experiment: every model runs, and the columns say what they must."""
 
 import subprocess
 import sys
 
 program = sys.argv[1]
-HEADING = ["bundle", "along/N", "up/N", "diff./%", "steps", "iter.", "passes", "time/ms", "tangent", "point", "node"]
+HEADING = ["model", "along/N", "up/N", "diff./%", "steps", "iter.", "passes", "time/ms", "tangent", "point", "node"]
 
 
 def run(*options):

@@ -4,8 +4,8 @@
 // some steps are cut for.
 #include "common/benchmark.hpp"
 
-#include <stickslip/inertia/generalized_alpha.hpp>
 #include <stickslip/stickslip.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
 
 #include <cstdio>
 #include <limits>
@@ -15,7 +15,7 @@ using namespace stickslip;
 struct Press : QuasistaticDefaults {
   using Material = FiniteJ2<LinearHardening>;
   using Friction = ExtrapolatedCoulomb;
-  using Inertia = GeneralizedAlpha;
+  using TimeIntegration = GeneralizedAlpha;
   using LinearSolver = EigenLdlt;
 };
 
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
         {.body =
              mesh::rectangle({.origin = {1, 0}, .size = {3, 1}, .cells = {18 * options->refine, 6 * options->refine}}),
          .material = {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 50}},
-         .inertia = {.density = 0.1},
+         .time_integration = {.density = 0.1},
          .contacts = {{.side = "top",
                        .tool = rigid::disc({2, 1.02 + radius}, radius),
                        .motion = motion,

@@ -6,13 +6,13 @@
 #include <stickslip/element/mean_dilatation.hpp>
 #include <stickslip/enforcement/penalty.hpp>
 #include <stickslip/friction/coulomb.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/io/checkpoint.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 
 #include <string>
 #include <vector>
@@ -29,7 +29,7 @@ struct Model {
   using Material = FiniteJ2<LinearHardening>;
   using Friction = QuasiCoulomb;
   using Enforcement = Penalty;
-  using Inertia = Quasistatic;
+  using TimeIntegration = Quasistatic;
   using LinearSolver = EigenLdlt;
 };
 
@@ -56,7 +56,7 @@ struct Run {
   }
   void serialize(Archive& archive) {
     march.serialize(archive);
-    archive.any_length("times", times);
+    archive.resizable("times", times);
   }
 };
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 // Gmsh files, read in the plane and in space. What is read is a mesh: a body is made of it, and its sides lie on its
 // boundary.
-#include <stickslip/assembly/body.hpp>
-#include <stickslip/assembly/facet.hpp>
+#include <stickslip/body/body.hpp>
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/io/gmsh.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/material/neo_hookean.hpp>
 #include <stickslip/mesh/coincident_nodes.hpp>
+#include <stickslip/mesh/facet.hpp>
 
 #include <cmath>
 #include <set>

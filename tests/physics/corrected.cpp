@@ -3,11 +3,11 @@
 #include "scene.hpp"
 
 #include <stickslip/friction/slip_weakening.hpp>
-#include <stickslip/inertia/generalized_alpha.hpp>
 #include <stickslip/linear_solver/corrected.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/linear_solver/eigen_lu.hpp>
 #include <stickslip/material/hypoelastic_j2.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/LU>
@@ -22,9 +22,9 @@ using Exact = Model<EigenLu, Coulomb>;
 using OnFactor = Model<Corrected<EigenLdlt>, Coulomb>;
 static_assert(system_symmetry<OnFactor> == Symmetry::general);
 static_assert(matrix_storage<OnFactor> == Symmetry::symmetric);
-static_assert(keeps_couplings<OnFactor> && !keeps_couplings<Exact>);
+static_assert(stores_couplings<OnFactor> && !stores_couplings<Exact>);
 // A symmetric system has nothing to correct, and keeps nothing for it.
-static_assert(!keeps_couplings<Model<Corrected<EigenLdlt>, QuasiCoulomb>>);
+static_assert(!stores_couplings<Model<Corrected<EigenLdlt>, QuasiCoulomb>>);
 // Only friction's couplings are corrected.
 static_assert(!valid_model<Model<Corrected<EigenLdlt>, Coulomb, HypoelasticJ2<LinearHardening>>>);
 
@@ -110,14 +110,14 @@ TEST_CASE(
 
 template <class S>
 struct Thrown : Model<S, Coulomb> {
-  using Inertia = GeneralizedAlpha;
+  using TimeIntegration = GeneralizedAlpha;
 };
 
 TEST_CASE("corrected: with inertia, whose share scales the couplings") {
   const auto run = []<class M>(M) {
     Problem<M> block{{.body = mesh::rectangle({.size = {10, 5}, .cells = {8, 4}}),
                       .material = material<Hencky>(),
-                      .inertia = {.density = 2.7e-9},
+                      .time_integration = {.density = 2.7e-9},
                       .contacts = {{.side = "bottom",
                                     .tool = rigid::line({0, 0}, {1, 0}),
                                     .friction = {.mu = 0.4},

@@ -175,7 +175,7 @@ TEST_CASE("advice: what it names reaches the accuracy that was wished") {
 
 TEST_CASE("estimates: the mesh's error of the stress") {
   using M = Extrusion<Frictionless>;
-  using Stress = Tensor<Real, Axisymmetric::Shape>;
+  using Stress = Tensor<Real, Axisymmetric::TensorPattern>;
   constexpr Index fine_cells = 4;  // in a coarse one, by direction
   const auto stressed = [](Index refine, Real& estimate) {
     auto billet = std::make_unique<Problem<M>>(typename Problem<M>::Parameters{
@@ -185,7 +185,7 @@ TEST_CASE("estimates: the mesh's error of the stress") {
     billet->hold("left", 0).drive("bottom", 1, [](Real t) { return 0.4 * travel * t; });
     MarchOptions options;
     options.steps = 60;
-    options.space_every = 59;
+    options.mesh_error_interval = 59;
     auto march = billet->march(options);
     for (const StepReport& step : march) estimate = step.errors.space;
     REQUIRE(bool(march.outcome()));

@@ -43,13 +43,13 @@ TEST_CASE("a run that cannot go on stops cleanly, and can be taken up again") {
   for (const auto& step : march) {
     last = p->displacement();
     force = p->contact_force("punch");
-    slip = p->contact("punch").states()[3].slip;
+    slip = p->contact("punch").states()[3].accumulated_slip;
     CHECK(step.time <= 0.5 + 1e-12);
   }
   const Outcome outcome = march.outcome();
   CHECK_FALSE(bool(outcome));
-  CHECK(outcome.trouble.cause == Cause::not_finite);
-  CHECK(outcome.trouble.place.kind == Place::Kind::contact_node);
+  CHECK(outcome.failure.cause == FailureCause::not_finite);
+  CHECK(outcome.failure.location.kind == Location::Kind::contact_node);
   CHECK(outcome.step == march.report().steps + 1);
   CHECK(outcome.time == p->time());
   CHECK(outcome.time >= 0.5 - 1e-8);
@@ -59,7 +59,7 @@ TEST_CASE("a run that cannot go on stops cleanly, and can be taken up again") {
   // The last converged state stands: displacements and what the tool feels.
   CHECK(last == p->displacement());
   CHECK(force == p->contact_force("punch"));
-  CHECK(slip == p->contact("punch").states()[3].slip);
+  CHECK(slip == p->contact("punch").states()[3].accumulated_slip);
   CHECK(p->max_plastic_strain() > 1e-3);
   // It stays ended.
   CHECK_FALSE(bool(march.finish()));
@@ -127,8 +127,8 @@ TEST_CASE("a drive that turns elements inside out") {
   });
   auto march = p.march({.end = 1, .steps = 10});
   CHECK_FALSE(bool(march.finish()));
-  CHECK(march.outcome().trouble.cause == Cause::element_inverted);
-  CHECK(march.outcome().trouble.place.kind == Place::Kind::element);
+  CHECK(march.outcome().failure.cause == FailureCause::element_inverted);
+  CHECK(march.outcome().failure.location.kind == Location::Kind::element);
   CHECK(p.time() > 0.39);
   CHECK(p.time() < 0.5);
   CHECK(p.displacement(p.body().mesh().side("top").nodes[1])[1] == doctest::Approx(-0.2 * p.time()).epsilon(1e-12));
@@ -142,16 +142,16 @@ TEST_CASE("a drive and a load that are no numbers name their node") {
     auto march = p.march({.end = 1, .steps = 2});
     (void)march.finish();
     CHECK(p.displacement().norm() == 0);
-    return march.outcome().trouble;
+    return march.outcome().failure;
   };
   const auto driven =
       run([](auto& p) { p.hold("bottom", 0).hold("bottom", 1).drive("top", 1, [](Real) { return nan; }); });
-  CHECK(driven.cause == Cause::not_finite);
-  CHECK(driven.place.kind == Place::Kind::node);
+  CHECK(driven.cause == FailureCause::not_finite);
+  CHECK(driven.location.kind == Location::Kind::node);
   const auto loaded =
       run([](auto& p) { p.hold("bottom", 0).hold("bottom", 1).load("top", 1, [](Real) { return nan; }); });
-  CHECK(loaded.cause == Cause::not_finite);
-  CHECK(loaded.place.kind == Place::Kind::node);
+  CHECK(loaded.cause == FailureCause::not_finite);
+  CHECK(loaded.location.kind == Location::Kind::node);
 }
 
 // A block of 4 x 2 between a held bottom and a driven top.
@@ -188,8 +188,8 @@ TEST_CASE("what a contact did is told of the converged state, not of an attempt 
   CHECK(now.touching == last.touching);
   CHECK(now.sliding == last.sliding);
   CHECK(now.max_penetration == last.max_penetration);
-  CHECK(now.bound == last.bound);
-  CHECK(now.stored == last.stored);
+  CHECK(now.friction_capacity == last.friction_capacity);
+  CHECK(now.penalty_work == last.penalty_work);
   CHECK(reported.max_penetration == last.max_penetration);
   Index touching = 0;
   Real deepest = 0;
@@ -256,7 +256,7 @@ TEST_CASE("a support that is released within a march holds no longer") {
   auto rest = p->march({.end = 2, .steps = 4});
   for (const auto& step : rest)
     if (step.number == 2) p->release("bottom", 1);
-  CHECK(rest.outcome().trouble.cause == Cause::unsupported);
+  CHECK(rest.outcome().failure.cause == FailureCause::unsupported);
   CHECK(rest.report().steps == 2);
 }
 
@@ -315,8 +315,8 @@ TEST_CASE("supports that contradict each other") {
   q->drive("left", 0, [](Real t) { return t > 0.501 && t < 0.502 ? 0.01 : 0; });
   auto march = q->march({.end = 1, .initial = 0.5005, .stops = {0.5005, 0.5015}});
   CHECK_FALSE(bool(march.finish()));
-  CHECK(march.outcome().trouble.cause == Cause::contradicting_supports);
-  CHECK(march.outcome().trouble.place.kind == Place::Kind::node);
+  CHECK(march.outcome().failure.cause == FailureCause::contradicting_supports);
+  CHECK(march.outcome().failure.location.kind == Location::Kind::node);
   for (const char* part : {"contradict", "component 0", "side \"bottom\"", "side \"left\" at 0.01"})
     CHECK_MESSAGE(march.outcome().message().find(part) != std::string::npos, march.outcome().message());
   CHECK(q->time() < 0.502);
@@ -350,7 +350,7 @@ TEST_CASE("a second part of the body that nothing holds is named, before a step 
   const auto refused = [](Problem<Plain>& p, const char* part) {
     auto march = p.march({.end = 1, .steps = 40});
     CHECK_FALSE(bool(march.finish()));
-    CHECK(march.outcome().trouble.cause == Cause::unsupported);
+    CHECK(march.outcome().failure.cause == FailureCause::unsupported);
     CHECK_MESSAGE(march.outcome().message().find(part) != std::string::npos, march.outcome().message());
     CHECK(march.report().steps == 0);
     CHECK(p.displacement().isZero(0));
@@ -378,7 +378,7 @@ TEST_CASE("a second part that may only turn is named after its first step; one t
   turning->hold("pin", 0).hold("pin", 1).load("top2", 1, force);
   auto march = turning->march({.end = 1, .steps = 4});
   CHECK_FALSE(bool(march.finish()));
-  CHECK(march.outcome().trouble.cause == Cause::unsupported);
+  CHECK(march.outcome().failure.cause == FailureCause::unsupported);
   CHECK(march.outcome().message().find("\"bottom2\"") != std::string::npos);
   CHECK(march.report().steps == 0);
 
@@ -413,7 +413,7 @@ TEST_CASE("a part that a tool holds is held, until the tool leaves it") {
   loose->load("top2", 1, [](Real t) { return 10 * t; });  // lifts it off
   auto march = loose->march({.end = 1, .steps = 4, .smallest = 1e-3});
   CHECK_FALSE(bool(march.finish()));
-  CHECK(march.outcome().trouble.cause == Cause::unsupported);
+  CHECK(march.outcome().failure.cause == FailureCause::unsupported);
   CHECK(march.outcome().message().find("with side \"below\"") != std::string::npos);
   CHECK(loose->displacement().norm() < 10);
 }
@@ -449,7 +449,7 @@ struct Squeeze {
     for (const auto& step : march) CHECK(step.number < 200);
     const Outcome& outcome = march.outcome();
     if (!outcome) {
-      CHECK(outcome.trouble.cause == Cause::digits_lost);
+      CHECK(outcome.failure.cause == FailureCause::digits_lost);
       CHECK(outcome.detail.find(reason) != std::string::npos);
       CAPTURE(outcome.message());
       CHECK(p.time() < 1);
@@ -497,7 +497,7 @@ TEST_CASE("a penalty on a tool askew buries the body's stiffness along it: right
     p.hold("top", 0).drive("top", 1, [](Real t) { return -0.4 * t; });
     auto march = p.march({.end = 1, .steps = 10, .smallest = 1e-4});
     if (!march.finish()) {
-      CHECK(march.outcome().trouble.cause == Cause::digits_lost);
+      CHECK(march.outcome().failure.cause == FailureCause::digits_lost);
       CHECK(march.outcome().detail.find("the penalty of contact \"slope\"") != std::string::npos);
       CHECK(p.time() == 0);
       return 0.0;

@@ -18,7 +18,7 @@ TEST_CASE("Tresca: a sliding block is dragged by tau A, whatever presses it") {
   (void)sliding_block<Tresca>({.tau = 20}, 50, 0.02, [&](const StepReport& step, const V& force) {
     CHECK(step.contact.dissipated >= 0);
     CHECK(step.lag == 0);
-    CHECK(step.contact.bound == doctest::Approx(20 * length).epsilon(1e-13));
+    CHECK(step.contact.friction_capacity == doctest::Approx(20 * length).epsilon(1e-13));
     if (step.contact.sliding < 5) return;
     ++sliding;
     CHECK(std::abs(force[0]) == doctest::Approx(20 * length).epsilon(1e-13));
@@ -38,7 +38,8 @@ TEST_CASE("Tresca on a ring: the area is that of the full turn, whatever the pen
                                 .enforcement = {.normal = 1e5, .tangential = 1e5, .per = per}}}});
     p.hold("bottom", 0).hold("bottom", 1);
     auto march = p.march({.end = 1, .steps = 4});
-    for (const StepReport& step : march) CHECK(step.contact.bound == doctest::Approx(5 * pi * (16 - 9)).epsilon(1e-12));
+    for (const StepReport& step : march)
+      CHECK(step.contact.friction_capacity == doctest::Approx(5 * pi * (16 - 9)).epsilon(1e-12));
     CHECK(bool(march.outcome()));
     CHECK(p.contact_force("top")[0] == doctest::Approx(-5 * pi * (16 - 9)).epsilon(1e-12));
   }
@@ -69,7 +70,7 @@ TEST_CASE("slip weakening: mu of the slid distance times N") {
   (void)sliding_block<Quasi<SlipWeakeningCoulomb>>(law, 100, 0, [&](const StepReport& step, const V& force) {
     CHECK(step.contact.dissipated >= 0);
     if (step.time < 0.2) return;
-    const Real mu = law.bound(FrictionPoint<Real>{1, step.contact.max_slip}).value;
+    const Real mu = law.bound(InterfaceState<Real>{1, step.contact.max_slip}).value;
     CHECK(std::abs(force[0]) == doctest::Approx(mu * -force[1]).epsilon(0.01));
   });
 }

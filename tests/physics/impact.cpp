@@ -7,13 +7,13 @@
 #include <stickslip/enforcement/penalty.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
-#include <stickslip/inertia/generalized_alpha.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/linear_solver/eigen_lu.hpp>
 #include <stickslip/material/hencky.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 #include <stickslip/verify/energy.hpp>
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ struct Smooth {
   using Material = Hencky;
   using Friction = Frictionless;
   using Enforcement = Penalty;
-  using Inertia = GeneralizedAlpha;
+  using TimeIntegration = GeneralizedAlpha;
   using LinearSolver = EigenLdlt;
 };
 struct Exact : Smooth {
@@ -51,7 +51,7 @@ struct Undamped_ : Damped {
   using Damping = Undamped;
 };
 struct Still : Smooth {
-  using Inertia = Quasistatic;
+  using TimeIntegration = Quasistatic;
 };
 
 // Damping that is not called for is not there: no byte of state or parameters, and no weight of its own in the matrix.
@@ -74,7 +74,7 @@ std::unique_ptr<Problem<M>> bar(const TimeScheme& scheme, Real normal, bool wall
   auto problem = std::make_unique<Problem<M>>(
       typename Problem<M>::Parameters{.body = mesh::rectangle({.size = {1, length}, .cells = {2, 50}}),
                                       .material = {.young = 1e4, .poisson = 0},
-                                      .inertia = {.density = 1e-2, .scheme = scheme},
+                                      .time_integration = {.density = 1e-2, .scheme = scheme},
                                       .contacts = {{.side = "bottom",
                                                     .tool = rigid::line({0, -gap}, {1, 0}),
                                                     .motion = [=](Real t) { return V(0, wall_moves ? t : 0); },
@@ -93,7 +93,7 @@ void hits(const TimeScheme& scheme, Real normal, Index steps_per_transit, bool w
   const Real dt = transit / Real(steps_per_transit), start = 0.05, mass = 0.1;
   const Index steps = 5 * steps_per_transit / 2;
   auto march = problem->march({.end = dt * Real(steps), .steps = steps, .tolerance = 1e-9});
-  verify::EnergyLedger<M> ledger(*problem);
+  verify::EnergyBalance<M> ledger(*problem);
   Real largest = 0, end = 0, low = 100, high = 0, impulse = 0, first = -1, last = 0;
   for (const StepReport& step : march) {
     ledger.update(step);
@@ -153,7 +153,7 @@ TEST_CASE("pressed smoothly, displacements are of order 2 and forces of order 1"
   const auto pressed = [](Index steps) {
     Problem<Smooth> p{{.body = mesh::rectangle({.size = {1, length}, .cells = {1, 20}}),
                        .material = {.young = 1e4, .poisson = 0},
-                       .inertia = {.density = 1e-2},
+                       .time_integration = {.density = 1e-2},
                        .contacts = {{.side = "bottom",
                                      .tool = rigid::line({0, 0}, {1, 0}),
                                      .enforcement = stiff<Smooth>(1e4),
@@ -173,7 +173,7 @@ TEST_CASE("pressed smoothly, displacements are of order 2 and forces of order 1"
 TEST_CASE("a node that is pulled leaves in the same step") {
   Problem<Smooth> block{{.body = mesh::rectangle({.cells = {1, 1}}),
                          .material = {.young = 1e4, .poisson = 0},
-                         .inertia = {.density = 1},
+                         .time_integration = {.density = 1},
                          .contacts = {{.side = "bottom",
                                        .tool = rigid::line({0, 0}, {1, 0}),
                                        .enforcement = stiff<Smooth>(100),
@@ -191,13 +191,13 @@ TEST_CASE("a support takes what the tool does to its nodes, once") {
   Problem<Smooth> block{
       {.body = mesh::rectangle({.cells = {2, 2}}),
        .material = {.young = 1e3, .poisson = 0},
-       .inertia = {.density = 1},
+       .time_integration = {.density = 1},
        .contacts = {
            {.side = "bottom", .tool = rigid::line({0, 0}, {1, 0}), .enforcement = {.normal = 100}, .name = "wall"}}}};
   for (const char* side : {"bottom", "top"}) block.drive(side, 1, [](Real t) { return -t; });
   block.start_velocity({0, -1});
   auto march = block.march({.end = 0.1, .steps = 20, .tolerance = 1e-9});
-  verify::EnergyLedger<Smooth> ledger(block);
+  verify::EnergyBalance<Smooth> ledger(block);
   for (const StepReport& step : march) {
     ledger.update(step);
     CHECK(block.contact_force("wall")[1] == doctest::Approx(-300 * step.time).epsilon(1e-9));
@@ -216,7 +216,7 @@ std::unique_ptr<Problem<Damped>> plated(const V& centre, const rigid::Tool<2>& p
   return std::make_unique<Problem<Damped>>(Problem<Damped>::Parameters{
       .body = mesh::rectangle({.origin = centre - V(0.5, 0.5), .size = {1, 1}, .cells = {1, 1}}),
       .material = {.young = 1e4, .poisson = 0.3},
-      .inertia = {.density = 1},
+      .time_integration = {.density = 1},
       .damping = {.tau = 1e-2},
       .contacts = {{.side = side,
                     .tool = plate,
@@ -279,7 +279,7 @@ TEST_CASE("damping takes tau omega / 2 of critical, and the books know it") {
   Problem<Damped> rod{
       {.body = mesh::rectangle({.size = {1, length}, .cells = {1, 20}}),
        .material = {.young = 1e4, .poisson = 0},
-       .inertia = {.density = 1e-2, .scheme = newmark()},
+       .time_integration = {.density = 1e-2, .scheme = newmark()},
        .damping = {.tau = 2e-4},
        .contacts = {
            {.side = "top", .tool = rigid::line({0, 20}, {-1, 0}), .enforcement = {.normal = 1, .tangential = 1}}}}};
@@ -287,7 +287,7 @@ TEST_CASE("damping takes tau omega / 2 of critical, and the books know it") {
   rod.start_velocity([](const V& x) { return V(0, 1e-3 * std::sin(0.5 * pi * x[1] / length)); });
   const Real omega = 0.5 * pi / transit, end = 4 * 2 * pi / omega;
   auto march = rod.march({.end = end, .steps = 800, .tolerance = 1e-11});
-  verify::EnergyLedger<Damped> ledger(rod);
+  verify::EnergyBalance<Damped> ledger(rod);
   for (const StepReport& step : march) ledger.update(step);
   REQUIRE(march.outcome());
   const auto& e = ledger.energies();
@@ -302,7 +302,7 @@ std::unique_ptr<Problem<Damped>> slider(Real tau, Real mu, const TimeScheme& sch
   auto block = std::make_unique<Problem<Damped>>(Problem<Damped>::Parameters{
       .body = mesh::rectangle({.size = {1, 0.5}, .cells = {8, 4}}),
       .material = {.young = 1e7, .poisson = 0.3},
-      .inertia = {.density = 1000, .scheme = scheme},
+      .time_integration = {.density = 1000, .scheme = scheme},
       .damping = {.tau = tau},
       .contacts = {{.side = "bottom",
                     .tool = rigid::line({0, 0}, {1, 0}),
@@ -413,7 +413,7 @@ TEST_CASE("energy that the scheme gains is told, and ends the run on request") {
     Problem<Smooth> block{
         {.body = mesh::rectangle({.size = {1, 2}, .cells = {1, 2}}),
          .material = {.young = 100, .poisson = 0.3},
-         .inertia = {.density = 1, .scheme = newmark()},
+         .time_integration = {.density = 1, .scheme = newmark()},
          .contacts = {{.side = "top", .tool = rigid::line({0, 20}, {-1, 0}), .enforcement = {.normal = 1}}}}};
     block.hold("bottom", 0).hold("bottom", 1);
     block.start_velocity([](const V& x) { return V(2.5 * x[1], 0); });
@@ -435,11 +435,12 @@ TEST_CASE("energy that the scheme gains is told, and ends the run on request") {
   CHECK(swaying({.steps = 400}, report, outcome).empty());
   CHECK(swaying({.steps = 20, .energy_gain = 0}, report, outcome).empty());
   const auto refused = swaying({.steps = 20, .refuse_energy_gain = true}, report, outcome);
-  CHECK(outcome.trouble.cause == Cause::energy_gained);
+  CHECK(outcome.failure.cause == FailureCause::energy_gained);
   CHECK(report.steps == coarse[0].step);
   CHECK(outcome.message().find(coarse[0].text) != std::string::npos);
   CHECK(refused.size() == 1);
-  Problem<Smooth> any{{.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .inertia = {.density = 1}}};
+  Problem<Smooth> any{
+      {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .time_integration = {.density = 1}}};
   CHECK_THROWS_WITH_AS((void)any.march({.energy_gain = -1}), "march: the energy gain must not be negative",
                        std::invalid_argument);
 }
@@ -447,7 +448,7 @@ TEST_CASE("energy that the scheme gains is told, and ends the run on request") {
 TEST_CASE("a damping without a time constant is refused by name") {
   CHECK_THROWS_WITH_AS(
       (Problem<Damped>{
-          {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .inertia = {.density = 1}}}),
+          {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .time_integration = {.density = 1}}}),
       "stiffness damping: the time constant tau must be positive", std::invalid_argument);
 }
 

@@ -36,7 +36,7 @@ template <class Friction, class Material, class Solver>
 void check(Real mu) {
   using M = Model<Recording<Solver>, Friction, Material>;
   auto p = press_and_drag<M>(mu, 0.2, 1.0, {8, 4});
-  auto march = p->march({.end = 1, .steps = 20, .tolerance = 1e-10, .watch_lag = false});
+  auto march = p->march({.end = 1, .steps = 20, .tolerance = 1e-10, .detect_lag_instability = false});
   Index pairs = 0, sliding = 0, sticking = 0;
   residuals().clear();
   for (const auto& step : march) {
@@ -49,7 +49,7 @@ void check(Real mu) {
     CHECK((tool - support).norm() < 1e-8 * tool.norm());
     const Real scale = residuals().empty() ? 1 : p->contact_force("tool").norm();
     residuals().push_back(step.residual * scale);
-    Index jumps = step.passes - 1;  // to the next pass, whose bounds are others
+    Index jumps = step.outer_iterations - 1;  // to the next pass, whose bounds are others
     for (std::size_t k = 0; k + 1 < residuals().size(); ++k) {
       const Real e = residuals()[k] / scale, next = residuals()[k + 1] / scale;
       if (next > e && jumps-- > 0) continue;

@@ -62,7 +62,7 @@ Real pressure_spread(PenaltyPer per) {
     CHECK(pair.states()[k].touching);
     Real share = 0;
     for (const auto& facet : mesh.side("top").facets)
-      share += facet_share(mesh, p.body().kinematics(), facet, pair.nodes()[k]);
+      share += tributary_area(mesh, p.body().kinematics(), facet, pair.nodes()[k]);
     const Real pressure = pair.states()[k].force[1] / share;
     low = std::min(low, pressure);
     high = std::max(high, pressure);

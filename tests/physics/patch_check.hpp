@@ -33,7 +33,7 @@ void check_patch(MeshType mesh, const std::vector<const char*>& sides, const Mat
   for (Index n = 0; n < mesh.node_count(); ++n)
     worst = std::max(worst, (p.displacement(n) - H * mesh.nodes[std::size_t(n)]).norm());
   CHECK(worst < 1e-10);
-  constexpr int size = M::Kinematics::Shape::size;
+  constexpr int size = M::Kinematics::TensorPattern::size;
   Vec<Real, size> first = Vec<Real, size>::Zero();
   Real spread = 0, scale = 0;
   p.body().visit_points(p.displacement(), [&](Index e, int q, const auto& F, const auto& state, Real) {

@@ -6,13 +6,13 @@
 #include <stickslip/enforcement/penalty.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/material/hencky.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 
 namespace scene {
 
@@ -27,7 +27,7 @@ struct Model {
   using Material = M;
   using Friction = F;
   using Enforcement = C;
-  using Inertia = Quasistatic;
+  using TimeIntegration = Quasistatic;
   using LinearSolver = S;
 };
 /// A body alone.

@@ -181,7 +181,7 @@ TEST_CASE("a run without digits is refused by name by all solvers, and a stiff o
       CHECK(difference(entry.second.at_most, entry.second.stiff) < 1e-6);
       continue;
     }
-    CHECK(end.trouble.cause == Cause::digits_lost);
+    CHECK(end.failure.cause == FailureCause::digits_lost);
     CHECK(end.detail.find("the penalty of contact \"tool\"") != std::string::npos);
     if (!iterative(entry.first)) CHECK(difference(entry.second.stiff, reference.stiff) < 1e-8);
   }

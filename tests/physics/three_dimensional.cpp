@@ -4,10 +4,10 @@
 
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/hex8.hpp>
-#include <stickslip/inertia/generalized_alpha.hpp>
 #include <stickslip/io/vtu.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
 #include <stickslip/verify/report.hpp>
 
 #include <doctest/doctest.h>
@@ -61,7 +61,7 @@ TEST_CASE_TEMPLATE("a rigid rotation gives no stress", M, Brick<Hencky, Mean>, B
         u[3 * n + i] = Q(i, 0) * X[0] + Q(i, 1) * X[1] + Q(i, 2) * X[2] - X[i] + 0.3 * i;
       }
     CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
-    CHECK(system.residual().cwiseAbs().maxCoeff() < 1e-10 * 69004);
+    CHECK(system.forces().residual.cwiseAbs().maxCoeff() < 1e-10 * 69004);
   }
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("the mean dilatation in space does not lock where the plain element do
 }
 
 struct Moving : Brick<Hencky> {
-  using Inertia = GeneralizedAlpha;
+  using TimeIntegration = GeneralizedAlpha;
 };
 TEST_CASE("of two bodies in space the one that may turn about a line, or shift, is named") {
   auto mesh = mesh::box({.cells = {2, 2, 2}});
@@ -186,7 +186,7 @@ TEST_CASE("of two bodies in space the one that may turn about a line, or shift, 
   };
   // It is called by the first of its sides.
   const auto names = [](const Outcome& o) {
-    return o.trouble.cause == Cause::unsupported &&
+    return o.failure.cause == FailureCause::unsupported &&
            o.message().find("the part of the mesh with side \"beside\"") != std::string::npos;
   };
   const auto pin = [](auto& p) { p.hold("edge", 0).hold("edge", 1).hold("edge", 2); };
@@ -200,7 +200,8 @@ TEST_CASE("of two bodies in space the one that may turn about a line, or shift, 
 }
 
 TEST_CASE("a free body in space keeps its momentum") {
-  Problem<Moving> p({.body = distorted_cube({2, 2, 2}), .material = material<Hencky>(), .inertia = {.density = 3}});
+  Problem<Moving> p(
+      {.body = distorted_cube({2, 2, 2}), .material = material<Hencky>(), .time_integration = {.density = 3}});
   p.start_velocity(V3(1, -2, 0.5));
   auto march = p.march({.end = 0.3, .steps = 3, .tolerance = 1e-10});
   CHECK(bool(march.finish()));

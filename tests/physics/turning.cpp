@@ -68,7 +68,7 @@ TEST_CASE_TEMPLATE("a wheel that turns is held by mu N and slides by its way, wh
                    QuasiCoulomb) {
   for (const Real part : {0.125, 0.25, 0.5, 1.0, 1.5, 4.0, -1.0}) {
     auto p = wheel<F>(turns(4 * part));
-    verify::EnergyLedger<Block<F>> books(*p);
+    verify::EnergyBalance<Block<F>> books(*p);
     auto march = p->march({.end = 2, .steps = 4});
     Real before = p->contact("wheel").summary().max_slip;
     verify::Energies first;
@@ -134,9 +134,9 @@ TEST_CASE("a body on a wheel of corners, and one that a wheel touches while it t
 
 TEST_CASE("a wheel that turns to and fro within a step: the step is cut until it can follow") {
   // Eight times by 0.2 rad; the end is on the way back.
-  const auto swing = [](Real t) { return 0.2 * std::sin(2 * pi * 8 * t); };
+  const auto lag_oscillation = [](Real t) { return 0.2 * std::sin(2 * pi * 8 * t); };
   const auto slide = [&](const MarchOptions& options, Index& rejected) {
-    auto p = wheel<Coulomb>(swing);
+    auto p = wheel<Coulomb>(lag_oscillation);
     auto march = p->march(options);
     REQUIRE(march.finish());
     rejected = march.report().rejected_steps;
@@ -154,7 +154,7 @@ TEST_CASE("a tool too quick for any step is refused by name, with its contact") 
   auto p = wheel<Coulomb>([](Real t) { return 0.2 * std::sin(1e6 * t); });
   auto march = p->march({.end = 2, .smallest = 1e-3});
   CHECK(!march.finish());
-  CHECK(march.outcome().trouble.cause == Cause::slide_turns);
+  CHECK(march.outcome().failure.cause == FailureCause::slide_turns);
   CHECK(march.outcome().message().find("contact wheel") != std::string::npos);
   CHECK(p->time() == doctest::Approx(1));
 }

@@ -13,7 +13,7 @@ struct Result {
   Field u;
   V force;
   Index steps, iterations, rejected;
-  Real plastic, slip;
+  Real plastic, accumulated_slip;
 };
 
 // One problem in a unit of length that is `length` mm and of force that is `force` N.
@@ -58,7 +58,7 @@ void check(Real length, Real force) {
   CHECK((mm.u - other.u).norm() < 1e-9 * mm.u.norm());
   CHECK((mm.force - other.force).norm() < 1e-9 * mm.force.norm());
   CHECK(std::abs(mm.plastic - other.plastic) < 1e-9 * mm.plastic);
-  CHECK(std::abs(mm.slip - other.slip) < 1e-9 * mm.slip);
+  CHECK(std::abs(mm.accumulated_slip - other.accumulated_slip) < 1e-9 * mm.accumulated_slip);
 }
 TEST_CASE("N and mm, N and m, MN and um give the same answer: no tolerance without a scale") {
   check<PlaneStrain>(1000, 1);

@@ -38,7 +38,7 @@ Slide climb(Real mu, Index steps = 40, Real tolerance = 1e-9) {
   block.drive("top", 1, [](Real t) { return 0.5 * std::max(0.0, t - 1); });
   block.load("left", 0, [](Real t) { return force * std::min(1.0, t); });
   auto march =
-      block.march({.end = 2, .steps = steps, .tolerance = tolerance, .pass_tolerance = 1e-8, .max_passes = 60});
+      block.march({.end = 2, .steps = steps, .tolerance = tolerance, .outer_tolerance = 1e-8, .max_outer = 60});
   Slide slide;
   for (const StepReport& step : march) slide.lag = step.lag;
   slide.outcome = march.outcome();
@@ -75,20 +75,20 @@ TEST_CASE("up a wedge: a lagging bound is right or says that its lag feeds back,
     if (mild.outcome)
       CHECK(std::abs(mild.ratio / exact(0.1) - 1) < std::max(steps < 40 ? mild.lag : 0.0, 0.01));
     else
-      CHECK(mild.outcome.trouble.cause == Cause::lag_feeds_back);
+      CHECK(mild.outcome.failure.cause == FailureCause::lag_unstable);
     if (steps >= 40) CHECK(mild.outcome);  // it settles by 0.87 a step
     for (const Real mu : {0.2, 0.5}) {
       CAPTURE(mu);
       const Slide strong = climb<QuasiCoulomb, EigenLdlt>(mu, steps);
       CHECK_FALSE(strong.outcome);
-      CHECK(strong.outcome.trouble.cause == Cause::lag_feeds_back);
+      CHECK(strong.outcome.failure.cause == FailureCause::lag_unstable);
       CHECK(strong.outcome.message().find("lag") != std::string::npos);
     }
     // The extrapolated bound is out of its range from the start: 0.87 is above a third.
     for (const Real mu : {0.1, 0.2, 0.5}) {
       const Slide ahead = climb<ExtrapolatedCoulomb, EigenLdlt>(mu, steps);
       CHECK_FALSE(ahead.outcome);
-      CHECK(ahead.outcome.trouble.cause == Cause::lag_feeds_back);
+      CHECK(ahead.outcome.failure.cause == FailureCause::lag_unstable);
     }
   }
   // Below a third it settles.
@@ -104,8 +104,8 @@ TEST_CASE("up a wedge: pivoting finds no balance where there is none") {
     for (const Index steps : {10, 40, 160}) {
       CAPTURE(mu);
       CAPTURE(steps);
-      CHECK(climb<QuasiCoulomb, Banded>(mu, steps).outcome.trouble.cause == Cause::lag_feeds_back);
-      CHECK(climb<ExtrapolatedCoulomb, Banded>(mu, steps).outcome.trouble.cause == Cause::lag_feeds_back);
+      CHECK(climb<QuasiCoulomb, Banded>(mu, steps).outcome.failure.cause == FailureCause::lag_unstable);
+      CHECK(climb<ExtrapolatedCoulomb, Banded>(mu, steps).outcome.failure.cause == FailureCause::lag_unstable);
       const Slide iterated = climb<WithPressure<Coulomb, LagIterated>, Banded>(mu, steps);
       REQUIRE_MESSAGE(iterated.outcome, iterated.outcome.message());
       CHECK(std::abs(iterated.ratio / exact(mu) - 1) < 1e-6);

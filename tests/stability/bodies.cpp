@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // Materials, corners, scales, instabilities and motion.
-#include "play.hpp"
+#include "run_case.hpp"
 
 namespace {
 
 using namespace stability;
 
 MarchOptions steps(Real end, Index count, Real tolerance = 1e-10) {
-  return {.end = end, .steps = count, .tolerance = tolerance, .pass_tolerance = 1e-9};
+  return {.end = end, .steps = count, .tolerance = tolerance, .outer_tolerance = 1e-9};
 }
 Real apart(const Field& a, const Field& b) {
   return (a - b).norm() / b.norm();
@@ -21,30 +21,32 @@ Real root(Real low, Real high, const std::function<Real(Real)>& f) {
 // --- materials
 
 // A block of 4 x 2 shortened or lengthened without friction, in plane strain.
-Scenery pulled(Real poisson, Real stretch, Index count, std::array<Index, 2> cells = {4, 2}, V size = {4, 2}) {
-  Scenery s{.body = mesh::rectangle({.size = size, .cells = cells}), .young = 1000, .poisson = poisson};
+CaseSetup pulled(Real poisson, Real stretch, Index count, std::array<Index, 2> cells = {4, 2}, V size = {4, 2}) {
+  CaseSetup s{.body = mesh::rectangle({.size = size, .cells = cells}), .young = 1000, .poisson = poisson};
   s.driven = {held("left", 0), held("bottom", 1), {"top", 1, [stretch, size](Real t) {
                                                      return size[1] * (std::exp(t * std::log(stretch)) - 1);
                                                    }}};
   s.marches = {steps(1, count)};
   return s;
 }
-const Hard incompressible("materials", "nu = 0.4999, 0.49999, 0.4999999: squeezed to a fifth, pulled to thrice",
-                          "Frictionless, EigenLdlt", "exact force, whatever nu", [](Case& c) {
-                            for (const Real nu : {0.4999, 0.49999, 0.4999999})
-                              for (const Real stretch : {0.2, 3.0}) {
-                                Real force = 0;
-                                const Played p = completes(c, smooth(), pulled(nu, stretch, 10),
-                                                           [&](const Moment& m) { force = m.reaction("top", 1); });
-                                c.near(force, 1000 / (1 - nu * nu) * std::log(stretch) / stretch * 4, 1e-8, "force");
-                              }
-                          });
-const Hard indented(
+const HardCase incompressible("materials", "nu = 0.4999, 0.49999, 0.4999999: squeezed to a fifth, pulled to thrice",
+                              "Frictionless, EigenLdlt", "exact force, whatever nu", [](Case& c) {
+                                for (const Real nu : {0.4999, 0.49999, 0.4999999})
+                                  for (const Real stretch : {0.2, 3.0}) {
+                                    Real force = 0;
+                                    const CaseResult p =
+                                        completes(c, smooth(), pulled(nu, stretch, 10),
+                                                  [&](const ConvergedState& m) { force = m.reaction("top", 1); });
+                                    c.near(force, 1000 / (1 - nu * nu) * std::log(stretch) / stretch * 4, 1e-8,
+                                           "force");
+                                  }
+                              });
+const HardCase indented(
     "materials", "nu = 0.4999 and 0.49999 under a rough disc", "6 of Coulomb x solvers",
     "forces as they are for 0.499, by the difference of nu", [](Case& c) {
-      for (const Bundle& b : elastic()) {
+      for (const TestedModel& b : elastic()) {
         const auto force = [&](Real nu) {
-          Scenery s{.body = mesh::rectangle({.size = {4, 2}, .cells = {12, 6}}), .young = 1000, .poisson = nu};
+          CaseSetup s{.body = mesh::rectangle({.size = {4, 2}, .cells = {12, 6}}), .young = 1000, .poisson = nu};
           s.contacts = {{.side = "top",
                          .tool = rigid::disc({2, 5}, 3),
                          .motion = [](Real t) { return V(0, -0.3 * t); },
@@ -53,7 +55,7 @@ const Hard indented(
                          .tangential = 1e4}};
           s.driven = {held("bottom", 0), held("bottom", 1)};
           s.marches = {steps(1, 10)};
-          const Played p = completes(c, b, s);
+          const CaseResult p = completes(c, b, s);
           c.require(p.report.iterations < 200, b.name + ": in " + std::to_string(p.report.iterations) + " iterations");
           return p.forces[0][1];
         };
@@ -63,38 +65,40 @@ const Hard indented(
         c.small(std::abs(high / low - 1), 0.02, b.name + ": no locking");
       }
     });
-const Hard inversion("materials", "squeezed to a hundredth, and through", "Frictionless, EigenLdlt",
-                     "exact force at 0.01; beyond: refused at the element", [](Case& c) {
-                       Real force = 0;
-                       (void)completes(c, smooth(), pulled(0.3, 0.01, 40),
-                                       [&](const Moment& m) { force = m.reaction("top", 1); });
-                       c.near(force, 1000 / 0.91 * std::log(0.01) / 0.01 * 4, 1e-7, "force");
-                       Scenery s = pulled(0.3, 0.5, 1);
-                       s.driven[2].value = [](Real t) { return -2.2 * t; };
-                       s.marches = {{.end = 1, .steps = 20, .smallest = 1e-4}};
-                       const Played p = smooth().play(s, {});
-                       take(c, p, 1e-2);
-                       c.refused_for(p.outcome().trouble.cause,
-                                     {Cause::element_inverted, Cause::not_converged, Cause::stalled},
-                                     p.outcome().message());
-                       c.require(p.time > 0.8 && p.time < 2 / 2.2, "as far as it goes");
-                     });
+const HardCase inversion("materials", "squeezed to a hundredth, and through", "Frictionless, EigenLdlt",
+                         "exact force at 0.01; beyond: refused at the element", [](Case& c) {
+                           Real force = 0;
+                           (void)completes(c, smooth(), pulled(0.3, 0.01, 40),
+                                           [&](const ConvergedState& m) { force = m.reaction("top", 1); });
+                           c.near(force, 1000 / 0.91 * std::log(0.01) / 0.01 * 4, 1e-7, "force");
+                           CaseSetup s = pulled(0.3, 0.5, 1);
+                           s.driven[2].value = [](Real t) { return -2.2 * t; };
+                           s.marches = {{.end = 1, .steps = 20, .smallest = 1e-4}};
+                           const CaseResult p = smooth().run_case(s, {});
+                           take(c, p, 1e-2);
+                           c.refused_for(
+                               p.outcome().failure.cause,
+                               {FailureCause::element_inverted, FailureCause::not_converged, FailureCause::stalled},
+                               p.outcome().message());
+                           c.require(p.time > 0.8 && p.time < 2 / 2.2, "as far as it goes");
+                         });
 
 // Plane strain without hardening: the stress is 2 / sqrt(3) of the flow stress once elastic strains have settled.
-const Hard perfect("materials", "zero hardening", "J2, QuasiCoulomb, EigenLdlt", "limit load 2 / sqrt(3) sigma",
-                   [](Case& c) {
-                     for (const Real stretch : {0.5, 1.5}) {
-                       Scenery s = pulled(0.3, stretch, 40);
-                       s.yield = 3;
-                       Real force = 0;
-                       (void)completes(c, metal(), s, [&](const Moment& m) { force = m.reaction("top", 1); });
-                       c.near(std::abs(force), 2 / std::sqrt(3.0) * 3 / stretch * 4, 1e-6, "limit load");
-                     }
-                   });
+const HardCase perfect("materials", "zero hardening", "J2, QuasiCoulomb, EigenLdlt", "limit load 2 / sqrt(3) sigma",
+                       [](Case& c) {
+                         for (const Real stretch : {0.5, 1.5}) {
+                           CaseSetup s = pulled(0.3, stretch, 40);
+                           s.yield = 3;
+                           Real force = 0;
+                           (void)completes(c, metal(), s,
+                                           [&](const ConvergedState& m) { force = m.reaction("top", 1); });
+                           c.near(std::abs(force), 2 / std::sqrt(3.0) * 3 / stretch * 4, 1e-6, "limit load");
+                         }
+                       });
 
 // A bar of the sheet's metal along the axis: Kirchhoff's stress is the flow stress.
-Scenery bar(Real strain, Index count) {
-  Scenery s{.body = mesh::rectangle({.size = {1, 2}, .cells = {2, 2}}), .young = 69004, .poisson = 0.3};
+CaseSetup bar(Real strain, Index count) {
+  CaseSetup s{.body = mesh::rectangle({.size = {1, 2}, .cells = {2, 2}}), .young = 69004, .poisson = 0.3};
   s.yield = 589;
   s.exponent = 0.216;
   s.driven = {
@@ -109,25 +113,26 @@ Real bar_force(Real strain) {
   const Real flow = 69004 * (e - p);
   return pi * std::exp(-strain) * (strain > 0 ? flow : -flow);
 }
-const Hard vertical("materials", "the power law's vertical start, and plastic strains above 3",
-                    "axisymmetric J2, Coulomb; QuasiCoulomb",
-                    "exact force from strains of 2e-3 to 3.5, in few and many steps", [](Case& c) {
-                      for (const Bundle& b : sheets())
-                        for (const Real strain : {2e-3, -2e-3, 3e-2, 0.5, -0.5, 3.5, -3.2})
-                          for (const Index count : {8, 80}) {
-                            Real force = 0;
-                            const Played p = completes(
-                                c, b, bar(strain, count), [&](const Moment& m) { force = m.reaction("top", 1); }, 1e-5);
-                            c.near(force, bar_force(strain), 1e-6, "force at " + Case::number(strain));
-                            if (std::abs(strain) > 3) c.require(p.plastic > 3, "plastic strain");
-                          }
-                    });
+const HardCase vertical("materials", "the power law's vertical start, and plastic strains above 3",
+                        "axisymmetric J2, Coulomb; QuasiCoulomb",
+                        "exact force from strains of 2e-3 to 3.5, in few and many steps", [](Case& c) {
+                          for (const TestedModel& b : sheets())
+                            for (const Real strain : {2e-3, -2e-3, 3e-2, 0.5, -0.5, 3.5, -3.2})
+                              for (const Index count : {8, 80}) {
+                                Real force = 0;
+                                const CaseResult p = completes(
+                                    c, b, bar(strain, count),
+                                    [&](const ConvergedState& m) { force = m.reaction("top", 1); }, 1e-5);
+                                c.near(force, bar_force(strain), 1e-6, "force at " + Case::number(strain));
+                                if (std::abs(strain) > 3) c.require(p.plastic > 3, "plastic strain");
+                              }
+                        });
 
 // The OSU punch (examples/osu_punch.cpp), refined.
-Played punch(Case& c, const Bundle& b, Index refine, Real mu, Real& at_30) {
-  Scenery s{.body = mesh::rectangle({.size = {59.18, 1}, .cells = {14 * refine, 2 * refine}}),
-            .young = 69004,
-            .poisson = 0.3};
+CaseResult punch(Case& c, const TestedModel& b, Index refine, Real mu, Real& at_30) {
+  CaseSetup s{.body = mesh::rectangle({.size = {59.18, 1}, .cells = {14 * refine, 2 * refine}}),
+              .young = 69004,
+              .poisson = 0.3};
   s.yield = 589;
   s.exponent = 0.216;
   s.contacts = {{.side = "top",
@@ -142,9 +147,9 @@ Played punch(Case& c, const Bundle& b, Index refine, Real mu, Real& at_30) {
   s.driven = {held("left", 0), held("right", 0), held("right", 1)};
   s.marches = {{.end = 40, .initial = 0.1, .largest = 0.8, .tolerance = 1e-7, .stops = {30}}};
   Real rim = 0;
-  Played p = completes(
+  CaseResult p = completes(
       c, b, s,
-      [&](const Moment& m) {
+      [&](const ConvergedState& m) {
         rim = m.reaction("right", 1);
         if (m.step.time == 30) at_30 = m.force()[1];
       },
@@ -154,24 +159,24 @@ Played punch(Case& c, const Bundle& b, Index refine, Real mu, Real& at_30) {
 }
 void necking(Case& c, Index refine) {
   Real exact = 0, lagged = 0;
-  for (const Bundle& b : sheets()) {
-    const Played p = punch(c, b, refine, 0.3, b.lags ? lagged : exact);
+  for (const TestedModel& b : sheets()) {
+    const CaseResult p = punch(c, b, refine, 0.3, b.lags ? lagged : exact);
     c.note(std::to_string(p.report.iterations) + " iterations, " + std::to_string(int(p.forces[0][1] / 1e3)) +
            " kN, plastic strain " + Case::number(p.plastic));
   }
   // Behind the neck, past some 32 mm, a step more or less of friction decides where it goes on.
   c.near(lagged, exact, 0.01, "the laws' forces at 30 mm");
 }
-const Hard osu("materials", "the OSU punch at mu = 0.30, 14 x 2", "axisymmetric J2, Coulomb; QuasiCoulomb",
-               "40 mm; forces balance, books close, laws agree at 30 mm", [](Case& c) { necking(c, 1); });
-const Hard osu_fine(
+const HardCase osu("materials", "the OSU punch at mu = 0.30, 14 x 2", "axisymmetric J2, Coulomb; QuasiCoulomb",
+                   "40 mm; forces balance, books close, laws agree at 30 mm", [](Case& c) { necking(c, 1); });
+const HardCase osu_fine(
     "materials", "the OSU punch at mu = 0.30, 56 x 8: it necks", "axisymmetric J2, Coulomb; QuasiCoulomb",
     "40 mm; forces balance, books close, laws agree at 30 mm", [](Case& c) { necking(c, 4); }, Form::full);
-const Hard osu_far(
+const HardCase osu_far(
     "tunnelling", "the OSU punch in steps of 250 mm", "axisymmetric J2, Coulomb; QuasiCoulomb",
     "at the end the punch is still in the sheet, its force that of die and rim", [](Case& c) {
-      for (const Bundle& b : sheets()) {
-        Scenery s{.body = mesh::rectangle({.size = {59.18, 1}, .cells = {14, 2}}), .young = 69004, .poisson = 0.3};
+      for (const TestedModel& b : sheets()) {
+        CaseSetup s{.body = mesh::rectangle({.size = {59.18, 1}, .cells = {14, 2}}), .young = 69004, .poisson = 0.3};
         s.yield = 589;
         s.exponent = 0.216;
         s.contacts = {{.side = "top",
@@ -182,7 +187,7 @@ const Hard osu_far(
         s.driven = {held("left", 0), held("right", 0), held("right", 1)};
         s.marches = {{.end = 1, .steps = 2, .smallest = 1e-4}};
         Real rim = 0;
-        const Played p = b.play(s, [&](const Moment& m) { rim = m.reaction("right", 1); });
+        const CaseResult p = b.run_case(s, [&](const ConvergedState& m) { rim = m.reaction("right", 1); });
         take(c, p, 1e-1);
         c.require(p.forces[0][1] > 1e3, b.name + ": it presses");
         c.near(p.forces[0][1], rim, 1e-4, b.name + ": the rim's force");
@@ -193,72 +198,72 @@ const Hard osu_far(
 // --- tools
 
 // A block on a table, pressed down and drawn over the table's edge.
-Scenery over_edge(const rigid::Profile& table, Real mu, Index count, Real far = 2.2) {
-  Scenery s{.body = mesh::rectangle({.size = {4, 2}, .cells = {8, 4}}), .young = 1000};
+CaseSetup over_edge(const rigid::Profile& table, Real mu, Index count, Real far = 2.2) {
+  CaseSetup s{.body = mesh::rectangle({.size = {4, 2}, .cells = {8, 4}}), .young = 1000};
   s.contacts = {{.side = "bottom", .tool = table, .mu = mu, .normal = 1e5, .tangential = 1e4}};
   s.driven = {{"top", 1, [](Real t) { return -0.1 * std::min(1.0, t); }},
               {"top", 0, [far](Real t) { return far * std::max(0.0, t - 1); }}};
   s.marches = {steps(1, 5), steps(2, count)};
   return s;
 }
-const Hard edges("tools", "nodes that leave a table: open end, sharp corner, fillet of half an element",
-                 "6 of Coulomb x solvers",
-                 "support and tool in balance; without friction the field does not know the steps", [](Case& c) {
-                   const rigid::Profile tables[] = {
-                       rigid::path({-9, 0}, {1, 0}).straight(12.3),
-                       rigid::path({-9, 0}, {1, 0}).straight(12.05).right(0.25, 0.5 * pi).straight(5),
-                       rigid::path({-9, 0}, {1, 0}).straight(12.3).corner(-0.5 * pi).straight(5)};
-                   for (const auto& table : tables)
-                     for (const Bundle& b : elastic()) {
-                       Real top = 0, side = 0;
-                       const Played p = completes(
-                           c, b, over_edge(table, 0.2, 40),
-                           [&](const Moment& m) { top = m.reaction("top", 1), side = m.reaction("top", 0); }, 1e-3);
-                       c.near(top, p.forces[0][1], 1e-6, b.name + ": balance");
-                       c.near(side, p.forces[0][0], 1e-6, b.name + ": balance along");
-                       Index touching = 0;
-                       for (const auto& n : p.nodes) touching += n.touching ? 1 : 0;
-                       c.require(touching > 0 && touching < 6, b.name + ": some have left");
-                     }
-                   const Played few = completes(c, smooth(), over_edge(tables[1], 0, 50), {}, 1),
-                                many = completes(c, smooth(), over_edge(tables[1], 0, 400), {}, 1);
-                   c.small(apart(few.u, many.u), 1e-7, "field");
-                 });
-const Hard small_fillet(
+const HardCase edges(
+    "tools", "nodes that leave a table: open end, sharp corner, fillet of half an element", "6 of Coulomb x solvers",
+    "support and tool in balance; without friction the field does not know the steps", [](Case& c) {
+      const rigid::Profile tables[] = {rigid::path({-9, 0}, {1, 0}).straight(12.3),
+                                       rigid::path({-9, 0}, {1, 0}).straight(12.05).right(0.25, 0.5 * pi).straight(5),
+                                       rigid::path({-9, 0}, {1, 0}).straight(12.3).corner(-0.5 * pi).straight(5)};
+      for (const auto& table : tables)
+        for (const TestedModel& b : elastic()) {
+          Real top = 0, side = 0;
+          const CaseResult p = completes(
+              c, b, over_edge(table, 0.2, 40),
+              [&](const ConvergedState& m) { top = m.reaction("top", 1), side = m.reaction("top", 0); }, 1e-3);
+          c.near(top, p.forces[0][1], 1e-6, b.name + ": balance");
+          c.near(side, p.forces[0][0], 1e-6, b.name + ": balance along");
+          Index touching = 0;
+          for (const auto& n : p.nodes) touching += n.touching ? 1 : 0;
+          c.require(touching > 0 && touching < 6, b.name + ": some have left");
+        }
+      const CaseResult few = completes(c, smooth(), over_edge(tables[1], 0, 50), {}, 1),
+                       many = completes(c, smooth(), over_edge(tables[1], 0, 400), {}, 1);
+      c.small(apart(few.u, many.u), 1e-7, "field");
+    });
+const HardCase small_fillet(
     "tools", "nodes pulled over a fillet of a fifth of an element", "6 of Coulomb x solvers",
     "refused where a node snaps off, or past it; last state in balance", [](Case& c) {
-      for (const Bundle& b : elastic()) {
-        Scenery s = over_edge(rigid::path({-9, 0}, {1, 0}).straight(12.2).right(0.1, 0.5 * pi).straight(5), 0.2, 40);
+      for (const TestedModel& b : elastic()) {
+        CaseSetup s = over_edge(rigid::path({-9, 0}, {1, 0}).straight(12.2).right(0.1, 0.5 * pi).straight(5), 0.2, 40);
         s.marches[1].smallest = 1e-6;
         Real top = 0;
-        const Played p = b.play(s, [&](const Moment& m) { top = m.reaction("top", 1); });
+        const CaseResult p = b.run_case(s, [&](const ConvergedState& m) { top = m.reaction("top", 1); });
         take(c, p, 1e-3);
         if (!p.outcome() || b.name[0] != 'S')  // whose iteration finds the balance beyond
-          c.refused_for(p.outcome().trouble.cause, {Cause::not_converged, Cause::stalled, Cause::tunnelled},
+          c.refused_for(p.outcome().failure.cause,
+                        {FailureCause::not_converged, FailureCause::stalled, FailureCause::tunnelled},
                         b.name + ": " + p.outcome().message());
         c.near(top, p.forces[0][1], 1e-6, b.name + ": balance");
       }
     });
-const Hard joints("tools", "a table of 100 pieces whose joints lie under the nodes", "6 of Coulomb x solvers",
-                  "field of a table of one piece", [](Case& c) {
-                    auto pieces = rigid::path({-10, 0}, {1, 0});
-                    for (int i = 0; i < 200; ++i) pieces.straight(0.125);
-                    for (const Bundle& b : elastic()) {
-                      const Played many = completes(c, b, over_edge(pieces, 0.2, 20, 1.0)),
-                                   one = completes(c, b, over_edge(rigid::line({0, 0}, {1, 0}), 0.2, 20, 1.0));
-                      c.small(apart(many.u, one.u), 1e-9, b.name + ": field");
-                    }
-                  });
-const Hard centre(
+const HardCase joints("tools", "a table of 100 pieces whose joints lie under the nodes", "6 of Coulomb x solvers",
+                      "field of a table of one piece", [](Case& c) {
+                        auto pieces = rigid::path({-10, 0}, {1, 0});
+                        for (int i = 0; i < 200; ++i) pieces.straight(0.125);
+                        for (const TestedModel& b : elastic()) {
+                          const CaseResult many = completes(c, b, over_edge(pieces, 0.2, 20, 1.0)),
+                                           one = completes(c, b, over_edge(rigid::line({0, 0}, {1, 0}), 0.2, 20, 1.0));
+                          c.small(apart(many.u, one.u), 1e-9, b.name + ": field");
+                        }
+                      });
+const HardCase centre(
     "tools", "a node exactly at the centre of a small disc", "6 of Coulomb x solvers",
     "it is pushed out, to the radius", [](Case& c) {
-      for (const Bundle& b : elastic()) {
-        Scenery s{.body = mesh::rectangle({.size = {4, 2}, .cells = {8, 4}}), .young = 1000};
+      for (const TestedModel& b : elastic()) {
+        CaseSetup s{.body = mesh::rectangle({.size = {4, 2}, .cells = {8, 4}}), .young = 1000};
         s.contacts = {
             {.side = "bottom", .tool = rigid::disc({2, 0}, 0.05), .mu = 0.2, .normal = 1e6, .tangential = 1e3}};
         s.driven = {held("top", 0), held("top", 1)};
         s.marches = {steps(1, 5)};
-        const Played p = completes(c, b, s, {}, 1);
+        const CaseResult p = completes(c, b, s, {}, 1);
         Index touching = 0;
         for (const auto& n : p.nodes)
           if (n.touching)
@@ -266,18 +271,18 @@ const Hard centre(
         c.require(touching == 1 && p.u.allFinite() && p.u.norm() > 0.04, b.name + ": one node, moved");
       }
     });
-const Hard touch(
+const HardCase touch(
     "tools", "first contact with no gap, and with one 1e-3 of an element deep", "Frictionless, EigenLdlt; multipliers",
     "field of an approach from outside", [](Case& c) {
-      for (const Bundle* b : {&smooth(), &augmented()}) {
+      for (const TestedModel* b : {&smooth(), &augmented()}) {
         const auto from = [&](Real gap) {
-          Scenery s{.body = mesh::rectangle({.size = {4, 2}, .cells = {8, 4}}), .young = 1000};
+          CaseSetup s{.body = mesh::rectangle({.size = {4, 2}, .cells = {8, 4}}), .young = 1000};
           s.contacts = {{.side = "bottom", .tool = rigid::line({0, -gap}, {1, 0}), .normal = 1e5, .tangential = 1e4}};
           s.driven = {{"left", 0, nullptr}, {"top", 1, [gap](Real t) { return -gap - 0.1 * t; }}};
           s.marches = {steps(1, 4)};
           return completes(c, *b, s, {}, 1);
         };
-        const Played outside = from(0.3), none = from(0), inside = from(-5e-4);
+        const CaseResult outside = from(0.3), none = from(0), inside = from(-5e-4);
         c.near(none.forces[0][1], outside.forces[0][1], 1e-8, b->name + ": no gap");
         c.near(inside.forces[0][1], outside.forces[0][1], 1e-8, b->name + ": inside");
       }
@@ -285,59 +290,60 @@ const Hard touch(
 
 // --- scales
 
-const Hard units("scales", "mm, m and um; Pa to GPa; offsets of 1e6", "6 of Coulomb x solvers",
-                 "one answer in all units", [](Case& c) {
-                   for (const Bundle& b : elastic()) {
-                     const auto played = [&](Real l, Real stress, Real offset) {
-                       const V shift(offset, -offset);
-                       Scenery s{.body = mesh::rectangle({.origin = shift, .size = V(4 * l, 2 * l), .cells = {8, 4}}),
-                                 .young = 1000 * stress};
-                       s.contacts = {{.side = "bottom",
-                                      .tool = rigid::disc(shift + V(1 * l, -6 * l), 6 * l),
-                                      .motion = [l](Real t) { return V(0.4 * l * t, 0); },
-                                      .mu = 0.2,
-                                      .normal = 1e4 * stress,
-                                      .tangential = 1e3 * stress}};
-                       s.driven = {held("top", 0), {"top", 1, [l](Real t) { return -0.2 * l * t; }}};
-                       s.marches = {steps(1, 10, offset != 0 ? 1e-7 : 1e-10)};
-                       if (offset != 0) s.marches[0].pass_tolerance = 1e-6;
-                       Played p = completes(c, b, s, {}, offset != 0 ? 1e-4 : 1e-6);
-                       p.forces[0] /= l * stress;
-                       p.u /= l;
-                       return p;
-                     };
-                     const Played mm = played(1, 1, 0);
-                     for (const auto& [l, stress] : {std::pair{1e-3, 1e6}, std::pair{1e3, 1e-3}, std::pair{1.0, 1e9}}) {
-                       const Played other = played(l, stress, 0);
-                       c.small(apart(other.u, mm.u), 1e-8, b.name + ": field in other units");
-                       c.require(other.report.iterations == mm.report.iterations, b.name + ": the same work");
-                     }
-                     const Played far = played(1, 1, 1e6);
-                     c.small((far.forces[0] - mm.forces[0]).norm() / mm.forces[0].norm(), 1e-5, b.name + ": far away");
-                   }
-                 });
-const Hard shapes(
+const HardCase units(
+    "scales", "mm, m and um; Pa to GPa; offsets of 1e6", "6 of Coulomb x solvers", "one answer in all units",
+    [](Case& c) {
+      for (const TestedModel& b : elastic()) {
+        const auto result = [&](Real l, Real stress, Real offset) {
+          const V shift(offset, -offset);
+          CaseSetup s{.body = mesh::rectangle({.origin = shift, .size = V(4 * l, 2 * l), .cells = {8, 4}}),
+                      .young = 1000 * stress};
+          s.contacts = {{.side = "bottom",
+                         .tool = rigid::disc(shift + V(1 * l, -6 * l), 6 * l),
+                         .motion = [l](Real t) { return V(0.4 * l * t, 0); },
+                         .mu = 0.2,
+                         .normal = 1e4 * stress,
+                         .tangential = 1e3 * stress}};
+          s.driven = {held("top", 0), {"top", 1, [l](Real t) { return -0.2 * l * t; }}};
+          s.marches = {steps(1, 10, offset != 0 ? 1e-7 : 1e-10)};
+          if (offset != 0) s.marches[0].outer_tolerance = 1e-6;
+          CaseResult p = completes(c, b, s, {}, offset != 0 ? 1e-4 : 1e-6);
+          p.forces[0] /= l * stress;
+          p.u /= l;
+          return p;
+        };
+        const CaseResult mm = result(1, 1, 0);
+        for (const auto& [l, stress] : {std::pair{1e-3, 1e6}, std::pair{1e3, 1e-3}, std::pair{1.0, 1e9}}) {
+          const CaseResult other = result(l, stress, 0);
+          c.small(apart(other.u, mm.u), 1e-8, b.name + ": field in other units");
+          c.require(other.report.iterations == mm.report.iterations, b.name + ": the same work");
+        }
+        const CaseResult far = result(1, 1, 1e6);
+        c.small((far.forces[0] - mm.forces[0]).norm() / mm.forces[0].norm(), 1e-5, b.name + ": far away");
+      }
+    });
+const HardCase shapes(
     "scales", "aspect ratios of 100 and 0.01, one element", "Frictionless, EigenLdlt", "exact force", [](Case& c) {
       for (const V& size : {V(100, 1), V(1, 100), V(4, 2)})
         for (const std::array<Index, 2>& cells : {std::array<Index, 2>{1, 1}, std::array<Index, 2>{3, 5}}) {
           Real force = 0;
           (void)completes(c, smooth(), pulled(0.3, 0.8, 4, cells, size),
-                          [&](const Moment& m) { force = m.reaction("top", 1); });
+                          [&](const ConvergedState& m) { force = m.reaction("top", 1); });
           c.near(force, 1000 / 0.91 * std::log(0.8) / 0.8 * size[0], 1e-8, "force");
         }
     });
-const Hard lone(
+const HardCase lone(
     "scales", "one element on one contact node", "6 of Coulomb x solvers",
     "force of the node = of the support = stiffness x depth", [](Case& c) {
-      for (const Bundle& b : elastic()) {
-        Scenery s{.body = mesh::rectangle({}), .young = 1000};
+      for (const TestedModel& b : elastic()) {
+        CaseSetup s{.body = mesh::rectangle({}), .young = 1000};
         s.body.sides["foot"].nodes = {s.body.side("bottom").nodes[0]};
         s.contacts = {
             {.side = "foot", .tool = rigid::line({0, 0}, {1, 0}), .mu = 0.3, .normal = 1e4, .tangential = 1e4}};
         s.driven = {held("top", 0), {"top", 1, [](Real t) { return -0.1 * t; }}};
         s.marches = {steps(1, 5)};
         Real top = 0;
-        const Played p = completes(c, b, s, [&](const Moment& m) { top = m.reaction("top", 1); });
+        const CaseResult p = completes(c, b, s, [&](const ConvergedState& m) { top = m.reaction("top", 1); });
         c.near(top, p.forces[0][1], 1e-9, b.name + ": balance");
         c.require(std::abs(p.forces[0][1]) > 10, b.name + ": it presses");
         if (!b.augmented) c.near(std::abs(p.forces[0][1]), -p.nodes[0].gap * 1e4, 1e-9, b.name + ": penalty");
@@ -347,64 +353,64 @@ const Hard lone(
 // --- instabilities
 
 // A column of 1 x 20 between guided ends, clamped; `aside` is a force at its middle.
-Scenery column(const std::function<Real(Real)>& press, const std::function<Real(Real)>& aside) {
-  Scenery s{.body = mesh::rectangle({.size = {1, 20}, .cells = {4, 80}}), .young = 1000, .poisson = 0};
+CaseSetup column(const std::function<Real(Real)>& press, const std::function<Real(Real)>& aside) {
+  CaseSetup s{.body = mesh::rectangle({.size = {1, 20}, .cells = {4, 80}}), .young = 1000, .poisson = 0};
   s.body.sides["middle"].nodes = {s.body.side("right").nodes[40]};
   s.body.sides["middle"].facets = {s.body.side("right").facets[39], s.body.side("right").facets[40]};
   s.driven = {held("bottom", 0), held("bottom", 1), held("top", 0), {"top", 1, press}};
   s.loads = {{"middle", 0, aside}};
   return s;
 }
-const Hard buckling(
+const HardCase buckling(
     "instabilities", "a column buckles onto a wall", "Frictionless; 6 of Coulomb x solvers",
     "Euler's load by the column's own bending stiffness; at the wall: books close, laws agree at mu = 0", [](Case& c) {
       // F = 192 EI w / L^3 gives EI, P = 4 pi^2 EI / L^2.
-      Scenery bent = column([](Real) { return 0.0; }, [](Real t) { return 0.01 * t; });
+      CaseSetup bent = column([](Real) { return 0.0; }, [](Real t) { return 0.01 * t; });
       bent.marches = {steps(1, 1)};
-      const Played q = completes(c, smooth(), bent);
+      const CaseResult q = completes(c, smooth(), bent);
       const Real w = q.u[2 * bent.body.side("middle").nodes[0]];
       const Real euler = 4 * pi * pi * 20 * 0.01 / (192 * w);
-      const auto play = [&](const Bundle& b, Real mu, Real press, Real& before_wall, Real& at_wall) {
-        Scenery s = column([press](Real t) { return -press * t; }, [](Real) { return 1e-2; });
+      const auto run_case = [&](const TestedModel& b, Real mu, Real press, Real& before_wall, Real& at_wall) {
+        CaseSetup s = column([press](Real t) { return -press * t; }, [](Real) { return 1e-2; });
         s.contacts = {
             {.side = "right", .tool = rigid::line({3, 0}, {0, 1}), .mu = mu, .normal = 1e4, .tangential = 1e3}};
-        s.marches = {{.end = 1, .initial = 0.005, .largest = 0.02, .tolerance = 1e-9, .pass_tolerance = 1e-8}};
-        Played p = completes(c, b, s, [&](const Moment& m) {
+        s.marches = {{.end = 1, .initial = 0.005, .largest = 0.02, .tolerance = 1e-9, .outer_tolerance = 1e-8}};
+        CaseResult p = completes(c, b, s, [&](const ConvergedState& m) {
           if (m.step.contact.touching == 0) before_wall = std::abs(m.reaction("top", 1));
           at_wall = std::abs(m.force()[0]);
         });
         return p;
       };
       Real load = 0, wall = 0;
-      const Played p = play(smooth(), 0, 2, load, wall);
+      const CaseResult p = run_case(smooth(), 0, 2, load, wall);
       // Behind the branch point the load goes on rising by the square of the slope, 0.2 at the wall, and shear lowers
       // it.
       c.near(load, euler, 0.06, "Euler's load");
       c.require(wall > 1, "it leans on the wall");
       c.note("indefinite factorisations: " + std::to_string(p.report.work.indefinite_factorizations));
-      for (const Bundle& b : elastic()) {
+      for (const TestedModel& b : elastic()) {
         Real other = 0, at_wall = 0;
-        const Played r = play(b, b.augmented ? 0 : 0.3, 1.1, other, at_wall);
+        const CaseResult r = run_case(b, b.augmented ? 0 : 0.3, 1.1, other, at_wall);
         c.near(other, load, 0.02, b.name + ": buckling load");
         c.require(at_wall > 1, b.name + ": it leans on the wall");
       }
     });
 
-const Hard rough_wall(
+const HardCase rough_wall(
     "instabilities", "the same pressed twice as far along a rough wall", "Coulomb; QuasiCoulomb",
     "refused where the column snaps along it; last state in balance", [](Case& c) {
-      for (const Bundle* b : {&coulomb(), &quasi()}) {
-        Scenery s = column([](Real t) { return -2 * t; }, [](Real) { return 1e-2; });
+      for (const TestedModel* b : {&coulomb(), &quasi()}) {
+        CaseSetup s = column([](Real t) { return -2 * t; }, [](Real) { return 1e-2; });
         s.contacts = {
             {.side = "right", .tool = rigid::line({3, 0}, {0, 1}), .mu = 0.3, .normal = 1e4, .tangential = 1e3}};
         s.marches = {{.end = 1, .initial = 0.005, .largest = 0.02, .smallest = 1e-6, .tolerance = 1e-9}};
         Real across = 0, load = 0;
-        const Played p = b->play(s, [&](const Moment& m) {
+        const CaseResult p = b->run_case(s, [&](const ConvergedState& m) {
           across = m.reaction("top", 0) + m.reaction("bottom", 0);
           load = 1e-2;
         });
         take(c, p);
-        c.refused_for(p.outcome().trouble.cause, {Cause::not_converged, Cause::stalled},
+        c.refused_for(p.outcome().failure.cause, {FailureCause::not_converged, FailureCause::stalled},
                       b->name + ": " + p.outcome().message());
         c.require(p.time > 0.5, b->name + ": past the wall");
         c.near(across + load, p.forces[0][0], 1e-5, b->name + ": balance across");
@@ -412,11 +418,11 @@ const Hard rough_wall(
     });
 
 // A shallow arch, clamped at its feet, pushed down at its crown by a disc.
-const Hard snap(
+const HardCase snap(
     "instabilities", "a shallow arch snaps through under a disc", "Frictionless; 6 of Coulomb x solvers",
     "force rises and falls; without friction all work is stored energy; books close", [](Case& c) {
       const auto arch = [](Real mu) {
-        Scenery s{.body = mesh::rectangle({.size = {20, 0.25}, .cells = {80, 2}}), .young = 1e4, .poisson = 0};
+        CaseSetup s{.body = mesh::rectangle({.size = {20, 0.25}, .cells = {80, 2}}), .young = 1e4, .poisson = 0};
         for (auto& x : s.body.nodes) x[1] += 1.5 * std::sin(pi * x[0] / 20);
         s.contacts = {{.side = "top",
                        .tool = rigid::disc({10, 2.76}, 1),
@@ -425,15 +431,15 @@ const Hard snap(
                        .normal = 1e4,
                        .tangential = 1e3}};
         s.driven = {held("left", 0), held("left", 1), held("right", 0), held("right", 1)};
-        s.marches = {{.end = 1, .initial = 0.01, .largest = 0.02, .tolerance = 1e-9, .pass_tolerance = 1e-8}};
+        s.marches = {{.end = 1, .initial = 0.01, .largest = 0.02, .tolerance = 1e-9, .outer_tolerance = 1e-8}};
         return s;
       };
-      std::vector<const Bundle*> all{&smooth()};
-      for (const Bundle& b : elastic()) all.push_back(&b);
-      for (const Bundle* b : all) {
+      std::vector<const TestedModel*> all{&smooth()};
+      for (const TestedModel& b : elastic()) all.push_back(&b);
+      for (const TestedModel* b : all) {
         Real peak = 0, fall = 0, external = 0, stored = 0;
         const bool rough = b != &smooth();
-        (void)completes(c, *b, arch(rough ? 0.3 : 0), [&](const Moment& m) {
+        (void)completes(c, *b, arch(rough ? 0.3 : 0), [&](const ConvergedState& m) {
           const Real now = m.force()[1];
           peak = std::max(peak, now);
           fall = std::max(fall, 1 - now / peak);
@@ -446,13 +452,13 @@ const Hard snap(
     });
 
 // The tube of examples/shock_absorber.cpp.
-const Hard folding(
+const HardCase folding(
     "instabilities", "the folding tube at mu = 0.30", "axisymmetric J2 dynamics, QuasiCoulomb, EigenLdlt",
     "30 mm; books close; work = plastic, friction, elastic and kinetic",
     [](Case& c) {
-      Scenery s{.body = mesh::rectangle({.origin = {23.77, 0}, .size = {1.63, 63.5}, .cells = {3, 100}}),
-                .young = 67000,
-                .poisson = 0.33};
+      CaseSetup s{.body = mesh::rectangle({.origin = {23.77, 0}, .size = {1.63, 63.5}, .cells = {3, 100}}),
+                  .young = 67000,
+                  .poisson = 0.33};
       mesh::join(s.body, "surface", {"left", "bottom", "right"});
       s.yield = 15;
       s.hardening = 44.7;
@@ -464,8 +470,8 @@ const Hard folding(
       s.driven = {{"top", 1, [](Real t) { return -40e3 * t; }}};
       s.velocity = [](const V&) { return V(0, -40e3); };
       s.marches = {
-          {.end = 30 / 40e3, .initial = 0.02 / 40e3, .largest = 0.5 / 40e3, .wanted_iterations = 6, .tolerance = 1e-4}};
-      const Played p = completes(c, tube(), s, {}, 1e-3);
+          {.end = 30 / 40e3, .initial = 0.02 / 40e3, .largest = 0.5 / 40e3, .target_iterations = 6, .tolerance = 1e-4}};
+      const CaseResult p = completes(c, tube(), s, {}, 1e-3);
       c.note("indefinite factorisations: " + std::to_string(p.report.work.indefinite_factorizations) +
              ", plastic strain " + Case::number(p.plastic));
     },
@@ -474,10 +480,10 @@ const Hard folding(
 // --- motion
 
 // A block slides down a slope under its weight: acceleration g (sin a - mu cos a).
-void slope(Case& c, const Bundle& b, Real times) {
+void slope(Case& c, const TestedModel& b, Real times) {
   const Real mu = 0.3, a = std::atan(times * mu), g = 10, mass = 2;  // 2 x 1, density 1
   const V along(std::cos(a), -std::sin(a)), out(std::sin(a), std::cos(a));
-  Scenery s{.body = mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}), .young = 1e4};
+  CaseSetup s{.body = mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}), .young = 1e4};
   for (V& x : s.body.nodes) x = x[0] * along + x[1] * out;
   s.contacts = {{.side = "bottom", .tool = rigid::line({0, 0}, along), .mu = mu, .normal = 1e4, .tangential = 1e4}};
   s.loads = {{"bottom", 1,
@@ -485,7 +491,7 @@ void slope(Case& c, const Bundle& b, Real times) {
   s.radius = 0;
   s.marches = {steps(20, 400, 1e-9)};
   Real x1 = 0, x2 = 0, x3 = 0, t2 = 0, t3 = 0, t1 = 0;
-  (void)completes(c, b, s, [&](const Moment& m) {
+  (void)completes(c, b, s, [&](const ConvergedState& m) {
     Real x = 0;
     for (Index n = 0; n < m.u.size() / 2; ++n) x += m.u.segment<2>(2 * n).dot(along) / Real(m.u.size() / 2);
     const Real t = m.step.time;
@@ -502,16 +508,17 @@ void slope(Case& c, const Bundle& b, Real times) {
     c.small(std::abs(x3 - x2), 1e-7, b.name + ": sticks");
   }
 }
-const Hard slides("motion", "a block on a slope, tan a = mu - 1 %, mu + 1 %, 2 mu", "dynamics: Coulomb; QuasiCoulomb",
-                  "sticks for ever (1e-7); slides with g (sin a - mu cos a) to 0.5 %", [](Case& c) {
-                    for (const Bundle& b : moving())
-                      for (const Real times : {0.99, 1.01, 2.0}) slope(c, b, times);
-                  });
+const HardCase slides("motion", "a block on a slope, tan a = mu - 1 %, mu + 1 %, 2 mu",
+                      "dynamics: Coulomb; QuasiCoulomb",
+                      "sticks for ever (1e-7); slides with g (sin a - mu cos a) to 0.5 %", [](Case& c) {
+                        for (const TestedModel& b : moving())
+                          for (const Real times : {0.99, 1.01, 2.0}) slope(c, b, times);
+                      });
 
 // One or four elements that swing freely, held at the foot.
-void swings(Case& c, Real radius, Index count, bool bounces) {
-  for (const Bundle& b : moving()) {
-    Scenery s{.body = mesh::rectangle({.size = {1, 1}, .cells = {1, 1}}), .young = 100};
+void oscillation_count(Case& c, Real radius, Index count, bool bounces) {
+  for (const TestedModel& b : moving()) {
+    CaseSetup s{.body = mesh::rectangle({.size = {1, 1}, .cells = {1, 1}}), .young = 100};
     s.radius = radius;
     if (bounces) {
       s.contacts = {
@@ -526,7 +533,7 @@ void swings(Case& c, Real radius, Index count, bool bounces) {
     Real first = 0, largest = 0;
     (void)completes(
         c, b, s,
-        [&](const Moment& m) {
+        [&](const ConvergedState& m) {
           const Real e = m.energies.kinetic + m.energies.elastic + m.energies.penalty;
           if (m.step.number == 1) first = e;
           largest = std::max(largest, e);
@@ -537,28 +544,28 @@ void swings(Case& c, Real radius, Index count, bool bounces) {
                 b.name + ": energy grows to " + Case::number(largest / first));
   }
 }
-const Hard conserves("motion", "free swinging, spectral radius 1", "dynamics: Coulomb; QuasiCoulomb",
-                     "10 000 steps: energy never above the start's by 1 %; books close",
-                     [](Case& c) { swings(c, 1, 10000, false); });
-const Hard conserves_long(
+const HardCase conserves("motion", "free swinging, spectral radius 1", "dynamics: Coulomb; QuasiCoulomb",
+                         "10 000 steps: energy never above the start's by 1 %; books close",
+                         [](Case& c) { oscillation_count(c, 1, 10000, false); });
+const HardCase conserves_long(
     "motion", "free swinging, spectral radius 1, long", "dynamics: Coulomb; QuasiCoulomb",
-    "100 000 steps: energy never above the start's by 1 %; books close", [](Case& c) { swings(c, 1, 100000, false); },
-    Form::full);
-const Hard damps("motion", "free swinging, spectral radius 0.5", "dynamics: Coulomb; QuasiCoulomb",
-                 "10 000 steps: books close", [](Case& c) { swings(c, 0.5, 10000, false); });
-const Hard chatters("motion", "a block dropped askew on a rough floor: rebound and chatter",
-                    "dynamics: Coulomb; QuasiCoulomb", "5000 steps: books close",
-                    [](Case& c) { swings(c, 0.5, 5000, true); });
-const Hard chatters_long(
+    "100 000 steps: energy never above the start's by 1 %; books close",
+    [](Case& c) { oscillation_count(c, 1, 100000, false); }, Form::full);
+const HardCase damps("motion", "free swinging, spectral radius 0.5", "dynamics: Coulomb; QuasiCoulomb",
+                     "10 000 steps: books close", [](Case& c) { oscillation_count(c, 0.5, 10000, false); });
+const HardCase chatters("motion", "a block dropped askew on a rough floor: rebound and chatter",
+                        "dynamics: Coulomb; QuasiCoulomb", "5000 steps: books close",
+                        [](Case& c) { oscillation_count(c, 0.5, 5000, true); });
+const HardCase chatters_long(
     "motion", "rebound and chatter, long, spectral radius 0.5", "dynamics: Coulomb; QuasiCoulomb",
-    "100 000 steps: books close", [](Case& c) { swings(c, 0.5, 100000, true); }, Form::full);
+    "100 000 steps: books close", [](Case& c) { oscillation_count(c, 0.5, 100000, true); }, Form::full);
 
 // --- impact
 
 // A bar of 50 elements that hits a wall at velocity 1: force rho c v A = 10 for 2 L / c = 0.02.
-void hits(Case& c, const Bundle& b, const TimeScheme& scheme, Real normal, Index steps_per_transit) {
+void hits(Case& c, const TestedModel& b, const TimeScheme& scheme, Real normal, Index steps_per_transit) {
   const Real transit = 0.01, gap = 0.002, dt = transit / Real(steps_per_transit), start = 0.05;
-  Scenery s{.body = mesh::rectangle({.size = {1, 10}, .cells = {2, 50}}), .young = 1e4, .poisson = 0};
+  CaseSetup s{.body = mesh::rectangle({.size = {1, 10}, .cells = {2, 50}}), .young = 1e4, .poisson = 0};
   s.contacts = {{.side = "bottom",
                  .tool = rigid::line({0, -gap}, {1, 0}),
                  .normal = normal,
@@ -571,9 +578,9 @@ void hits(Case& c, const Bundle& b, const TimeScheme& scheme, Real normal, Index
   s.marches = {steps(dt * Real(count), count, 1e-9)};
   Real largest = 0, end = 0, low = 100, high = 0, impulse = 0, sum = 0;
   Index n = 0;
-  const Played p = completes(
+  const CaseResult p = completes(
       c, b, s,
-      [&](const Moment& m) {
+      [&](const ConvergedState& m) {
         end = (m.energies.kinetic + m.energies.elastic + m.energies.penalty) / start;
         largest = std::max(largest, end);
         const Real force = -m.force()[1], t = (m.step.time - 0.5 * dt - gap) / transit;
@@ -598,7 +605,7 @@ void hits(Case& c, const Bundle& b, const TimeScheme& scheme, Real normal, Index
   c.near(high, 10, part, at + ": force");
   c.near(sum / Real(n), 10, 2e-3, at + ": mean force");
 }
-const Hard impacts(
+const HardCase impacts(
     "motion", "a bar hits a wall: 5 schemes, 3 penalties and multipliers, 50 to 400 steps a transit",
     "dynamics: QuasiCoulomb at mu = 0; frictionless with multipliers",
     "energy never above the start's (1e-9); force of the wave to 1 % (mean 0.2 %; 16 % where the mesh disperses)",
@@ -613,12 +620,12 @@ const Hard impacts(
     Form::full);
 
 // Taylor's bar: copper, 227 m/s; mm, t, s.
-Played taylor(Case& c, const V& cells, Real radius, Real end, Index count, bool held_foot, const Look& look = {}) {
-  Scenery s{.body = mesh::rectangle({.size = {3.2, 32.4}, .cells = {Index(cells[0]), Index(cells[1])}}),
-            .young = 117e3,
-            .poisson = 0.35,
-            .yield = 400,
-            .hardening = 100};
+CaseResult taylor(Case& c, const V& cells, Real radius, Real end, Index count, bool held_foot, const Look& look = {}) {
+  CaseSetup s{.body = mesh::rectangle({.size = {3.2, 32.4}, .cells = {Index(cells[0]), Index(cells[1])}}),
+              .young = 117e3,
+              .poisson = 0.35,
+              .yield = 400,
+              .hardening = 100};
   s.contacts = {{.side = "bottom",
                  .tool = rigid::line({0, held_foot ? -100.0 : 0.0}, {1, 0}),
                  .normal = 100,
@@ -630,11 +637,11 @@ Played taylor(Case& c, const V& cells, Real radius, Real end, Index count, bool 
   s.radius = radius;
   s.velocity = [=](const V& x) { return V(0, held_foot && x[1] < 1e-9 ? 0 : -227e3); };
   s.marches = {steps(end, count, 1e-6)};
-  Played p = completes(c, tube(), s, look, 1e-3);
+  CaseResult p = completes(c, tube(), s, look, 1e-3);
   c.require(p.warnings.empty(), "no warning");
   return p;
 }
-const Hard taylors(
+const HardCase taylors(
     "motion", "Taylor's bar on a plane, 5 x 50 and 10 x 100", "axisymmetric J2 dynamics, QuasiCoulomb, EigenLdlt",
     "largest strain within 6 % between schemes; 3.17 with the foot held; dish 0.255 +- 0.02 mm, closed again",
     [](Case& c) {
@@ -649,7 +656,7 @@ const Hard taylors(
       c.near(taylor(c, {5, 50}, 0.5, 80e-6, 800, true).plastic, 3.17, 0.02, "strain with the foot held");
       // The release wave meets at the axis and lifts the centre, which comes back.
       Real dish = 0, last = 0;
-      (void)taylor(c, {10, 100}, 0.5, 12e-6, 200, false, [&](const Moment& m) {
+      (void)taylor(c, {10, 100}, 0.5, 12e-6, 200, false, [&](const ConvergedState& m) {
         last = m.u[1];
         dish = std::max(dish, last);
       });
@@ -660,13 +667,13 @@ const Hard taylors(
     Form::full);
 
 // A soft block slides under constant friction in steps that resolve its flutter: lift-off bounds it.
-const Hard flutters(
+const HardCase flutters(
     "motion", "a soft block flutters while it slides, mu = 0.49, spectral radius 1", "dynamics: Coulomb; QuasiCoulomb",
     "4000 steps: the scheme gains nothing, no warning; energy bounded",
     [](Case& c) {
-      for (const Bundle& b : moving()) {
+      for (const TestedModel& b : moving()) {
         const Real weight = 500 * 9.81, cosine = 1 / std::sqrt(1.25), sine = 0.5 * cosine;
-        Scenery s{.body = mesh::rectangle({.size = {1, 0.5}, .cells = {8, 4}}), .young = 1e7, .poisson = 0.3};
+        CaseSetup s{.body = mesh::rectangle({.size = {1, 0.5}, .cells = {8, 4}}), .young = 1e7, .poisson = 0.3};
         s.contacts = {{.side = "bottom",
                        .tool = rigid::line({0, 0}, {1, 0}),
                        .mu = 0.49,
@@ -682,7 +689,7 @@ const Hard flutters(
         }
         s.marches = {steps(4, 4000, 1e-8)};
         Real high = 0, vibration = 0;
-        const Played p = completes(c, b, s, [&](const Moment& m) {
+        const CaseResult p = completes(c, b, s, [&](const ConvergedState& m) {
           high = std::max(high, -m.force()[1] / (weight * cosine));
           vibration = std::max(vibration, m.energies.elastic + m.energies.penalty);
         });

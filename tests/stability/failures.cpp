@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What cannot be solved says so: where, when and why, at once, and leaves everything as it was.
 #include "../physics/scene.hpp"
-#include "play.hpp"
+#include "run_case.hpp"
 
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 
@@ -20,9 +20,10 @@ struct Faults {
 Faults faults;
 
 struct FaultyHencky : Hencky {
-  template <class S, class Shape>
-  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>& old,
-                                                      Real dt) const {
+  template <class S, class TensorPattern>
+  MaterialResponse<S, TensorPattern, State<S, TensorPattern>> respond(const Tensor<S, TensorPattern>& F,
+                                                                      const State<S, TensorPattern>& old,
+                                                                      Real dt) const {
     auto out = Hencky::respond(F, old, dt);
     if (faults.stress) out.P(0, 0) = S(faults.value);
     if (faults.tangent) out.dP_dF(1, 1) = S(faults.value);
@@ -33,7 +34,7 @@ struct FaultyCoulomb : Coulomb {
   using Law = FaultyCoulomb;
   using Pressure = LastConverged;
   template <class S>
-  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+  FrictionBound<S> bound(const InterfaceState<S>& at) const {
     return faults.bound ? FrictionBound<S>{S(faults.value), S(0), S(0)} : Coulomb::bound(at);
   }
 };
@@ -64,23 +65,23 @@ std::unique_ptr<Problem<Faulty>> pressed() {
   return p;
 }
 
-const Hard poisoned(
+const HardCase poisoned(
     "failures", "NaN and infinity out of every policy and function of time", "user's policies, EigenLdlt",
     "named at its source without another solution; state intact; goes on once it is mended", [](Case& c) {
       struct Source {
         const char* name;
         bool Faults::*fault;
-        Cause cause;
-        Place::Kind place;
+        FailureCause cause;
+        Location::Kind place;
       };
       const Source sources[] = {
-          {"stress", &Faults::stress, Cause::not_finite, Place::Kind::element},
-          {"tangent", &Faults::tangent, Cause::not_finite, Place::Kind::element},
-          {"bound", &Faults::bound, Cause::not_finite, Place::Kind::contact_node},
-          {"motion", &Faults::motion, Cause::not_finite, Place::Kind::contact_node},
-          {"drive", &Faults::drive, Cause::not_finite, Place::Kind::node},
-          {"load", &Faults::load, Cause::not_finite, Place::Kind::node},
-          {"solution", &Faults::solution, Cause::singular_matrix, Place::Kind::nowhere},
+          {"stress", &Faults::stress, FailureCause::not_finite, Location::Kind::element},
+          {"tangent", &Faults::tangent, FailureCause::not_finite, Location::Kind::element},
+          {"bound", &Faults::bound, FailureCause::not_finite, Location::Kind::contact_node},
+          {"motion", &Faults::motion, FailureCause::not_finite, Location::Kind::contact_node},
+          {"drive", &Faults::drive, FailureCause::not_finite, Location::Kind::node},
+          {"load", &Faults::load, FailureCause::not_finite, Location::Kind::node},
+          {"solution", &Faults::solution, FailureCause::singular_matrix, Location::Kind::nowhere},
       };
       auto whole = pressed();
       c.completes(whole->march({.end = 0.5, .steps = 5, .tolerance = 1e-10}));
@@ -99,7 +100,7 @@ const Hard poisoned(
           auto march = p->march({.end = 1, .steps = 5, .smallest = 0.03});
           c.refuses(march, {source.cause});
           const Outcome& outcome = march.outcome();
-          c.require(outcome.trouble.place.kind == source.place, name + ": the place, " + outcome.message());
+          c.require(outcome.failure.location.kind == source.place, name + ": the place, " + outcome.message());
           // No solution goes by before it is noticed; a faulty solver is asked twice an attempt, which is tried again
           // once.
           c.require(faults.solutions <= (source.fault == &Faults::solution ? 2 * outcome.attempts : 0),
@@ -116,56 +117,56 @@ const Hard poisoned(
         }
     });
 
-const Hard limits("failures", "a limit of iterations that is too low, then raised", "user's policies, EigenLdlt",
-                  "refused as such; then the field of a run that had it from the start", [](Case& c) {
-                    auto p = pressed(), whole = pressed();
-                    c.refuses(
-                        p->march({.end = 1, .steps = 2, .smallest = 0.2, .tolerance = 1e-10, .max_iterations = 1}),
-                        {Cause::not_converged});
-                    c.require(p->time() == 0 && p->displacement().isZero(0), "nothing has happened");
-                    c.completes(p->march({.end = 1, .steps = 2, .tolerance = 1e-10}));
-                    c.completes(whole->march({.end = 1, .steps = 2, .tolerance = 1e-10}));
-                    c.small((p->displacement() - whole->displacement()).norm(), 0, "to the bit");
-                  });
+const HardCase limits("failures", "a limit of iterations that is too low, then raised", "user's policies, EigenLdlt",
+                      "refused as such; then the field of a run that had it from the start", [](Case& c) {
+                        auto p = pressed(), whole = pressed();
+                        c.refuses(
+                            p->march({.end = 1, .steps = 2, .smallest = 0.2, .tolerance = 1e-10, .max_iterations = 1}),
+                            {FailureCause::not_converged});
+                        c.require(p->time() == 0 && p->displacement().isZero(0), "nothing has happened");
+                        c.completes(p->march({.end = 1, .steps = 2, .tolerance = 1e-10}));
+                        c.completes(whole->march({.end = 1, .steps = 2, .tolerance = 1e-10}));
+                        c.small((p->displacement() - whole->displacement()).norm(), 0, "to the bit");
+                      });
 
 // --- supports
 
 using Alone = scene::Lone<EigenLdlt>;
 using Touching = scene::Model<EigenLdlt, Frictionless>;
-const Hard unsupported("failures", "rigid-body motions that nothing resists", "no contact; Frictionless",
-                       "named as such", [](Case& c) {
-                         const auto lone = [&](auto prepare) {
-                           Problem<Alone> p({.body = mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}),
-                                             .material = {.young = 1000, .poisson = 0.3}});
-                           prepare(p);
-                           c.refuses(p.march({.end = 1, .steps = 2, .smallest = 0.1}), {Cause::unsupported});
-                           c.require(p.displacement().isZero(0), "nothing has happened");
-                         };
-                         const auto pull = [](Real t) { return 10 * t; };
-                         lone([&](auto& p) { p.load("right", 0, pull); });
-                         lone([&](auto& p) { p.hold("left", 1).load("right", 0, pull); });
-                         // Loads in balance with each other, along the free motion or not, do not hold it either.
-                         const auto back = [pull](Real t) { return -pull(t); };
-                         lone([&](auto& p) { p.load("right", 0, pull).load("left", 0, back); });
-                         lone([&](auto& p) { p.hold("left", 1).load("right", 0, pull).load("left", 0, back); });
-                         auto pinned = mesh::rectangle({.size = {2, 1}, .cells = {4, 2}});
-                         pinned.sides["pin"].nodes = {pinned.side("left").nodes[1]};
-                         {
-                           Problem<Alone> p({.body = pinned, .material = {.young = 1000, .poisson = 0.3}});
-                           p.hold("pin", 0).hold("pin", 1).load("top", 1, pull);
-                           c.refuses(p.march({.end = 1, .steps = 2, .smallest = 0.1}), {Cause::unsupported});
-                         }
-                         // On a smooth floor, pushed sideways.
-                         Problem<Touching> p({.body = mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}),
-                                              .material = {.young = 1000, .poisson = 0.3},
-                                              .contacts = {{.side = "bottom",
-                                                            .tool = rigid::line({0, 0}, {1, 0}),
-                                                            .enforcement = {.normal = 1e4},
-                                                            .name = "floor"}}});
-                         p.drive("top", 1, [](Real t) { return -0.1 * t; }).load("left", 0, pull);
-                         c.refuses(p.march({.end = 1, .steps = 2, .smallest = 0.1}), {Cause::unsupported});
-                       });
-const Hard supported("failures", "the same with one support more", "no contact", "converges", [](Case& c) {
+const HardCase unsupported("failures", "rigid-body motions that nothing resists", "no contact; Frictionless",
+                           "named as such", [](Case& c) {
+                             const auto lone = [&](auto prepare) {
+                               Problem<Alone> p({.body = mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}),
+                                                 .material = {.young = 1000, .poisson = 0.3}});
+                               prepare(p);
+                               c.refuses(p.march({.end = 1, .steps = 2, .smallest = 0.1}), {FailureCause::unsupported});
+                               c.require(p.displacement().isZero(0), "nothing has happened");
+                             };
+                             const auto pull = [](Real t) { return 10 * t; };
+                             lone([&](auto& p) { p.load("right", 0, pull); });
+                             lone([&](auto& p) { p.hold("left", 1).load("right", 0, pull); });
+                             // Loads in balance with each other, along the free motion or not, do not hold it either.
+                             const auto back = [pull](Real t) { return -pull(t); };
+                             lone([&](auto& p) { p.load("right", 0, pull).load("left", 0, back); });
+                             lone([&](auto& p) { p.hold("left", 1).load("right", 0, pull).load("left", 0, back); });
+                             auto pinned = mesh::rectangle({.size = {2, 1}, .cells = {4, 2}});
+                             pinned.sides["pin"].nodes = {pinned.side("left").nodes[1]};
+                             {
+                               Problem<Alone> p({.body = pinned, .material = {.young = 1000, .poisson = 0.3}});
+                               p.hold("pin", 0).hold("pin", 1).load("top", 1, pull);
+                               c.refuses(p.march({.end = 1, .steps = 2, .smallest = 0.1}), {FailureCause::unsupported});
+                             }
+                             // On a smooth floor, pushed sideways.
+                             Problem<Touching> p({.body = mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}),
+                                                  .material = {.young = 1000, .poisson = 0.3},
+                                                  .contacts = {{.side = "bottom",
+                                                                .tool = rigid::line({0, 0}, {1, 0}),
+                                                                .enforcement = {.normal = 1e4},
+                                                                .name = "floor"}}});
+                             p.drive("top", 1, [](Real t) { return -0.1 * t; }).load("left", 0, pull);
+                             c.refuses(p.march({.end = 1, .steps = 2, .smallest = 0.1}), {FailureCause::unsupported});
+                           });
+const HardCase supported("failures", "the same with one support more", "no contact", "converges", [](Case& c) {
   auto mesh = mesh::rectangle({.size = {2, 1}, .cells = {4, 2}});
   mesh.sides["pin"].nodes = {mesh.side("bottom").nodes[0]};
   mesh.sides["roller"].nodes = {mesh.side("bottom").nodes[4]};
@@ -175,7 +176,7 @@ const Hard supported("failures", "the same with one support more", "no contact",
   c.near(p.reaction("pin", 1) + p.reaction("roller", 1), -10, 1e-9, "reactions");
 });
 
-const Hard input(
+const HardCase input(
     "failures", "empty sides, nodes that do not exist, segments of no length, velocities that are no numbers",
     "Frictionless; dynamics", "input errors that name them", [](Case& c) {
       const auto with = [](auto change) {
@@ -197,10 +198,10 @@ const Hard input(
       c.complains([] { (void)rigid::path({0, 0}, {1, 0}).straight(0); }, "length");
       c.complains([] { (void)rigid::rounded({{0, 0}, {1, 0}, {1, 0}, {2, 0}}, 0); }, "point 2");
       c.complains([] { (void)rigid::line({0, 0}, {0, 0}); }, "heading");
-      Scenery s{.body = mesh::rectangle({})};
+      CaseSetup s{.body = mesh::rectangle({})};
       s.velocity = [](const V& X) { return V(X[0] > 0.5 ? nan : 0, 0); };
       s.marches = {{.end = 1, .steps = 1}};
-      c.complains([&] { (void)moving()[0].play(s, {}); }, "start velocity");
+      c.complains([&] { (void)moving()[0].run_case(s, {}); }, "start velocity");
     });
 
 }  // namespace failures

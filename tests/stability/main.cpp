@@ -20,7 +20,7 @@ namespace {
 
 const char* const marker = "<!-- what follows is written by ./check --stability -->";
 const char* const head =
-    "| group | case | bundle | outcome | steps / iterations / cut | worst | asserted "
+    "| group | case | model | outcome | steps / iterations / cut | worst | asserted "
     "|\n|---|---|---|---|---|---|---|\n";
 
 // Puts the text behind the marker of a file.
@@ -72,13 +72,13 @@ int main(int argc, char** argv) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     (!judged.wrong().empty() ? wrong : judged.refused() ? refused : converged)++;
     std::printf("%s: %s | %s | %s | %d steps, %d iterations, %d cut | balance %s, answer %s | %s | %.1f s\n",
-                entry.group.c_str(), entry.name.c_str(), entry.bundle.c_str(), judged.outcome().c_str(), judged.steps(),
+                entry.group.c_str(), entry.name.c_str(), entry.model.c_str(), judged.outcome().c_str(), judged.steps(),
                 judged.iterations(), judged.rejected(), Case::number(judged.balance()).c_str(),
                 Case::number(judged.worst()).c_str(), entry.asserted.c_str(), seconds);
     if (!judged.noted().empty()) std::printf("    %s\n", judged.noted().c_str());
     for (const std::string& claim : judged.wrong()) std::printf("    WRONG: %s\n", claim.c_str());
     std::fflush(stdout);
-    rows += "| " + entry.group + " | " + entry.name + " | " + entry.bundle + " | " + judged.outcome() + " | " +
+    rows += "| " + entry.group + " | " + entry.name + " | " + entry.model + " | " + judged.outcome() + " | " +
             std::to_string(judged.steps()) + " / " + std::to_string(judged.iterations()) + " / " +
             std::to_string(judged.rejected()) + " | " + Case::number(judged.balance()) + " | " +
             Case::number(judged.worst()) + " | " + entry.asserted +

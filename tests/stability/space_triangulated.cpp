@@ -12,12 +12,12 @@ namespace {
 
 using namespace scene;
 using stability::Case;
-using stability::Hard;
+using stability::HardCase;
 using V3 = Vec<Real, 3>;
 struct Faceted : Model<EigenLu, Coulomb, Hencky, ThreeDimensional, MeanDilatation<Hex8>> {
   using Tool = rigid::AnyOf<rigid::Revolution, rigid::Triangulated>;
 };
-const char* const bundle = "Coulomb, EigenLu, Hex8, Triangulated";
+const char* const model = "Coulomb, EigenLu, Hex8, Triangulated";
 
 // A square of `cells` x `cells` x 2 triangles about the origin, its normal up, its corners where `at` puts them.
 template <class At>
@@ -83,82 +83,82 @@ V3 support(const Problem<Faceted>& p) {
   return {p.reaction("front", 0), p.reaction("front", 1), p.reaction("front", 2)};
 }
 
-const Hard joints("space: tools", "a table of 5000 triangles whose vertices and edges lie under the nodes", bundle,
-                  "field and force of a plane", [](Case& c) {
-                    const auto table = sheet(50, [](Real s, Real t) { return V3(2 + 12.5 * s, 2 + 12.5 * t, 0); });
-                    auto many = block(rigid::Triangulated(table), {1, 0.5, 0}, 0.2),
-                         one = block(rigid::plane({0, 0, 0}, {0, 0, 1}), {1, 0.5, 0}, 0.2);
-                    run(c, *many, 10);
-                    run(c, *one, 10);
-                    c.small((many->displacement() - one->displacement()).norm() / one->displacement().norm(), 1e-9,
-                            "field");
-                    c.small((many->contact_force("tool") - one->contact_force("tool")).norm() /
-                                one->contact_force("tool").norm(),
-                            1e-9, "force");
-                  });
-const Hard corner("space: tools", "nodes that leave a box of triangles over its edges and its corner", bundle,
-                  "support and tool in balance; the few nodes left carry it", [](Case& c) {
-                    for (const Index cells : {1, 4}) {
-                      rigid::Triangles table = box({3, 3, 1}, cells);
-                      for (V3& x : table.vertices) x += V3(1.3, 1.2, -1);
-                      auto p = block(rigid::Triangulated(table), {3, 2.6, 0}, 0.2);
-                      run(c, *p, 40);
-                      c.small((support(*p) - p->contact_force("tool")).norm() / p->contact_force("tool").norm(), 1e-6,
-                              "balance");
-                      Index touching = 0;
-                      for (const auto& n : p->contact("tool").states()) touching += n.touching ? 1 : 0;
-                      c.require(touching > 0 && touching < 9, std::to_string(touching) + " are left");
-                    }
-                  });
-const Hard thrown("space: tunnelling", "a thin box of triangles that turns, from 50 element lengths away", bundle,
-                  "field of 1000 small steps, for 1 and 3 steps", [](Case& c) {
-                    const auto hit = [&](Index count) {
-                      auto p =
-                          std::make_unique<Problem<Faceted>>(
-                              Problem<Faceted>::Parameters{
-                                  .body = mesh::box({.size = {4, 4, 2}, .cells = {4, 4, 2}}),
-                                  .material = {.young = 1000, .poisson = 0.3},
-                                  .contacts = {
-                                      {.side = "front",
-                                       .tool = rigid::Triangulated(box({3, 3, 0.5}, 1)),
-                                       .motion =
-                                           [](Real t) {
-                                             const Real angle = 0.4 * pi * (1 - t) + 0.1;
-                                             rigid::Pose<3> pose;
-                                             pose.rotation << std::cos(angle), 0, std::sin(angle), 0, 1, 0,
-                                                 -std::sin(angle), 0, std::cos(angle);
-                                             pose.translation = V3(2, 2.3, 52.2 - 50 * t);
-                                             return pose;
-                                           },
-                                       .friction = {.mu = 0},
-                                       .enforcement = {.normal = 1e5, .tangential = 1, .per = PenaltyPer::area},
-                                       .name = "tool"}}});
-                      for (const Index i : {0, 1, 2}) p->hold("back", i);
-                      c.completes(p->march({.end = 1, .steps = count, .tolerance = 1e-10}));
-                      return p;
-                    };
-                    const auto slow = hit(1000);
-                    c.require(slow->contact_force("tool").norm() > 30, "it presses");
-                    for (const Index few : {1, 3}) {
-                      const auto quick = hit(few);
-                      c.small((quick->displacement() - slow->displacement()).norm() / slow->displacement().norm(), 1e-7,
-                              "field in " + std::to_string(few));
-                    }
-                  });
-const Hard degenerate("space: failures", "triangles without an area, with a corner twice, missing or not a number",
-                      "Triangulated", "input errors that name the triangle", [](Case& c) {
-                        const auto with = [](auto change) {
-                          rigid::Triangles table = sheet(2, [](Real s, Real t) { return V3(s, t, 0); });
-                          change(table);
-                          (void)rigid::Triangulated(table);
-                        };
-                        c.complains([&] { with([](auto& t) { t.corners = {}; }); }, "triang");
-                        c.complains([&] { with([](auto& t) { t.corners[3] = {1, 1, 4}; }); }, "triangle 3");
-                        c.complains([&] { with([](auto& t) { t.corners[3] = {0, 1, 2}; }); }, "triangle 3");
-                        c.complains([&] { with([](auto& t) { t.corners[3] = {0, 1, 9}; }); }, "triangle 3");
-                        c.complains([&] { with([](auto& t) { t.corners[3] = {0, -1, 4}; }); }, "triangle 3");
-                        c.complains([&] { with([](auto& t) { t.vertices[8][1] = std::nan(""); }); }, "triangle");
-                        c.complains([&] { with([](auto& t) { t.vertices[8][1] = HUGE_VAL; }); }, "triangle");
+const HardCase joints("space: tools", "a table of 5000 triangles whose vertices and edges lie under the nodes", model,
+                      "field and force of a plane", [](Case& c) {
+                        const auto table = sheet(50, [](Real s, Real t) { return V3(2 + 12.5 * s, 2 + 12.5 * t, 0); });
+                        auto many = block(rigid::Triangulated(table), {1, 0.5, 0}, 0.2),
+                             one = block(rigid::plane({0, 0, 0}, {0, 0, 1}), {1, 0.5, 0}, 0.2);
+                        run(c, *many, 10);
+                        run(c, *one, 10);
+                        c.small((many->displacement() - one->displacement()).norm() / one->displacement().norm(), 1e-9,
+                                "field");
+                        c.small((many->contact_force("tool") - one->contact_force("tool")).norm() /
+                                    one->contact_force("tool").norm(),
+                                1e-9, "force");
                       });
+const HardCase corner("space: tools", "nodes that leave a box of triangles over its edges and its corner", model,
+                      "support and tool in balance; the few nodes left carry it", [](Case& c) {
+                        for (const Index cells : {1, 4}) {
+                          rigid::Triangles table = box({3, 3, 1}, cells);
+                          for (V3& x : table.vertices) x += V3(1.3, 1.2, -1);
+                          auto p = block(rigid::Triangulated(table), {3, 2.6, 0}, 0.2);
+                          run(c, *p, 40);
+                          c.small((support(*p) - p->contact_force("tool")).norm() / p->contact_force("tool").norm(),
+                                  1e-6, "balance");
+                          Index touching = 0;
+                          for (const auto& n : p->contact("tool").states()) touching += n.touching ? 1 : 0;
+                          c.require(touching > 0 && touching < 9, std::to_string(touching) + " are left");
+                        }
+                      });
+const HardCase thrown("space: tunnelling", "a thin box of triangles that turns, from 50 element lengths away", model,
+                      "field of 1000 small steps, for 1 and 3 steps", [](Case& c) {
+                        const auto hit = [&](Index count) {
+                          auto p =
+                              std::make_unique<Problem<Faceted>>(
+                                  Problem<Faceted>::Parameters{
+                                      .body = mesh::box({.size = {4, 4, 2}, .cells = {4, 4, 2}}),
+                                      .material = {.young = 1000, .poisson = 0.3},
+                                      .contacts = {
+                                          {.side = "front",
+                                           .tool = rigid::Triangulated(box({3, 3, 0.5}, 1)),
+                                           .motion =
+                                               [](Real t) {
+                                                 const Real angle = 0.4 * pi * (1 - t) + 0.1;
+                                                 rigid::Pose<3> pose;
+                                                 pose.rotation << std::cos(angle), 0, std::sin(angle), 0, 1, 0,
+                                                     -std::sin(angle), 0, std::cos(angle);
+                                                 pose.translation = V3(2, 2.3, 52.2 - 50 * t);
+                                                 return pose;
+                                               },
+                                           .friction = {.mu = 0},
+                                           .enforcement = {.normal = 1e5, .tangential = 1, .per = PenaltyPer::area},
+                                           .name = "tool"}}});
+                          for (const Index i : {0, 1, 2}) p->hold("back", i);
+                          c.completes(p->march({.end = 1, .steps = count, .tolerance = 1e-10}));
+                          return p;
+                        };
+                        const auto slow = hit(1000);
+                        c.require(slow->contact_force("tool").norm() > 30, "it presses");
+                        for (const Index few : {1, 3}) {
+                          const auto quick = hit(few);
+                          c.small((quick->displacement() - slow->displacement()).norm() / slow->displacement().norm(),
+                                  1e-7, "field in " + std::to_string(few));
+                        }
+                      });
+const HardCase degenerate("space: failures", "triangles without an area, with a corner twice, missing or not a number",
+                          "Triangulated", "input errors that name the triangle", [](Case& c) {
+                            const auto with = [](auto change) {
+                              rigid::Triangles table = sheet(2, [](Real s, Real t) { return V3(s, t, 0); });
+                              change(table);
+                              (void)rigid::Triangulated(table);
+                            };
+                            c.complains([&] { with([](auto& t) { t.corners = {}; }); }, "triang");
+                            c.complains([&] { with([](auto& t) { t.corners[3] = {1, 1, 4}; }); }, "triangle 3");
+                            c.complains([&] { with([](auto& t) { t.corners[3] = {0, 1, 2}; }); }, "triangle 3");
+                            c.complains([&] { with([](auto& t) { t.corners[3] = {0, 1, 9}; }); }, "triangle 3");
+                            c.complains([&] { with([](auto& t) { t.corners[3] = {0, -1, 4}; }); }, "triangle 3");
+                            c.complains([&] { with([](auto& t) { t.vertices[8][1] = std::nan(""); }); }, "triangle");
+                            c.complains([&] { with([](auto& t) { t.vertices[8][1] = HUGE_VAL; }); }, "triangle");
+                          });
 
 }  // namespace

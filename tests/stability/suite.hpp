@@ -45,9 +45,9 @@ class Case {
   }
   /// Runs a march to its end, counts its work, and demands that it be refused for one of these causes.
   template <class March>
-  void refuses(March&& march, std::vector<Cause> causes) {
+  void refuses(March&& march, std::vector<FailureCause> causes) {
     runs(march);
-    refused_for(march.outcome().trouble.cause, causes, march.outcome().message());
+    refused_for(march.outcome().failure.cause, causes, march.outcome().message());
   }
   /// Counts the work of a march that has run.
   template <class March>
@@ -67,7 +67,7 @@ class Case {
       wrong_.push_back("energy is out of balance by " + number(defect) + ", allowed " + number(limit));
   }
   /// Ends in a refusal that was asked for.
-  void refused_for(Cause cause, const std::vector<Cause>& causes, const std::string& message) {
+  void refused_for(FailureCause cause, const std::vector<FailureCause>& causes, const std::string& message) {
     refused_ = true;
     require(std::find(causes.begin(), causes.end(), cause) != causes.end(), message);
     cause_ = describe(cause);
@@ -116,7 +116,7 @@ class Case {
 enum class Form { quick, full };  ///< in which forms of the suite a case runs: in both, or in the full one alone
 
 struct Entry {
-  std::string group, name, bundle, asserted;
+  std::string group, name, model, asserted;
   Form form;
   std::function<void(Case&)> run;
 };
@@ -124,11 +124,11 @@ struct Entry {
 std::vector<Entry>& entries();
 
 /// Registers a case at namespace scope.
-struct Hard {
-  Hard(std::string group, std::string name, std::string bundle, std::string asserted, std::function<void(Case&)> run,
-       Form form = Form::quick) {
+struct HardCase {
+  HardCase(std::string group, std::string name, std::string model, std::string asserted, std::function<void(Case&)> run,
+           Form form = Form::quick) {
     entries().push_back(
-        {std::move(group), std::move(name), std::move(bundle), std::move(asserted), form, std::move(run)});
+        {std::move(group), std::move(name), std::move(model), std::move(asserted), form, std::move(run)});
   }
 };
 

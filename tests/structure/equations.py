@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Holds what is cited of docs/theory.md against what stands there: equation numbers are unique, and every
-equation and section that code or a document names exists."""
+"""Holds what is cited of docs/theory.md against what stands there: equations are numbered in the
+order in which they stand, and every equation and section that code or a document names exists."""
 
 import pathlib
 import re
@@ -8,13 +8,16 @@ import sys
 
 root = pathlib.Path(sys.argv[1])
 theory = (root / "docs/theory.md").read_text()
-NUMBER = r"\d+\.\d+[a-z]?"
+NUMBER = r"\d+\.\d+"
 LIST = rf"{NUMBER}(?:(?:\s*(?:-|to|and|,|or)\s*)(?:eq\.\s*)?{NUMBER})*"
 
 tags = re.findall(rf"\\tag\{{({NUMBER})\}}", theory)
 sections = set(re.findall(r"^#+ (\d+(?:\.\d+)*)\.?\s", theory, re.M))
 assert len(tags) > 100 and len(sections) > 20, "theory.md has lost its numbers"
 offences = [f"theory.md: equation {tag} stands twice" for tag in sorted(set(tags)) if tags.count(tag) > 1]
+chapters = [tag.split(".")[0] for tag in tags]
+offences += [f"theory.md: equation {tag} stands where {chapter}.{chapters[:k + 1].count(chapter)} is expected"
+             for k, (tag, chapter) in enumerate(zip(tags, chapters)) if tag != f"{chapter}.{chapters[:k + 1].count(chapter)}"]
 
 files = [*sorted((root / "include").rglob("*.hpp")), *sorted((root / "docs").glob("*.md")), root / "README.md",
          *(path for folder in ("tests", "examples", "bench") for path in sorted((root / folder).rglob("*.[ch]pp")))]

@@ -9,13 +9,14 @@ import pathlib
 import re
 import sys
 
-MODELS = {"kinematics", "element", "material", "friction", "enforcement", "inertia", "damping", "linear_solver"}
+MODELS = {"kinematics", "element", "material", "friction", "enforcement", "time_integration", "damping", "linear_solver"}
 FLOORS = [
     {"base"},
     {"tensor"},
     {"policy", "mesh"},
     MODELS | {"geometry"},
-    {"assembly"},
+    {"dofs"},
+    {"body", "contact"},
     {"solve"},
     {"scene.hpp"},
     {"problem.hpp"},
@@ -24,7 +25,7 @@ FLOORS = [
 ]
 FLOOR = {part: floor for floor, parts in enumerate(FLOORS) for part in parts}
 # These see contracts, never models: the policies are interchangeable because nobody here knows one by name.
-BLIND_TO_MODELS = {"assembly", "solve", "scene.hpp", "problem.hpp", "advise.hpp"}
+BLIND_TO_MODELS = {"dofs", "body", "contact", "solve", "scene.hpp", "problem.hpp", "advise.hpp"}
 # Whole-Eigen headers cost seconds; streams belong to io.
 BANNED = {"Eigen/Dense", "Eigen/Eigen", "Eigen/Sparse", "iostream"}
 IO_ONLY = {"ostream", "istream"}
@@ -77,10 +78,10 @@ def self_test():
         "material/hencky.hpp": head + "#include <stickslip/material/log.hpp>\n#include <stickslip/policy/material.hpp>\n",
         "friction/coulomb.hpp": head,
         "mesh/mesh.hpp": head,
-        "assembly/body.hpp": head + "#include <stickslip/mesh/mesh.hpp>\n",
+        "body/body.hpp": head + "#include <stickslip/mesh/mesh.hpp>\n",
         "io/text.hpp": head + "#include <fstream>\n",
-        "io/vtk.hpp": head + "#include <ostream>\n#include <stickslip/assembly/body.hpp>\n",
-        "problem.hpp": head + "#include <stickslip/assembly/body.hpp>\n",
+        "io/vtk.hpp": head + "#include <ostream>\n#include <stickslip/body/body.hpp>\n",
+        "problem.hpp": head + "#include <stickslip/body/body.hpp>\n",
         "stickslip.hpp": head + "#include <stickslip/problem.hpp>\n#include <stickslip/material/hencky.hpp>\n",
     }
     assert not list(offences(sound)), list(offences(sound))
@@ -94,7 +95,7 @@ def self_test():
     caught("policy/worse.hpp", head + '  #  include "stickslip/mesh/mesh.hpp"\n', "sideways")
     caught("material/bad.hpp", head + "#include <stickslip/friction/coulomb.hpp>\n", "sideways")
     caught("verify/bad.hpp", head + "#include <stickslip/io/vtk.hpp>\n", "sideways")
-    caught("assembly/bad.hpp", head + "#include <stickslip/material/hencky.hpp>\n", "a model where")
+    caught("contact/bad.hpp", head + "#include <stickslip/material/hencky.hpp>\n", "a model where")
     caught("solve/bad.hpp", head + "#include <stickslip/friction/coulomb.hpp>\n", "a model where")
     caught("solve/worse.hpp", head + "#include <stickslip/stickslip.hpp>\n", "upward")
     caught("attic/bad.hpp", head, "no floor")

@@ -100,17 +100,17 @@ TEST_CASE("Tresca: tau A at any depth, and without pressure memory") {
 }
 TEST_CASE("slip weakening and Stribeck: the derivatives of mu, and its ends") {
   for (const Real x : {0.0, 1e-4, 0.05, 0.7}) {
-    const auto slipping = weakening.bound(FrictionPoint<Dual<1>>{3, Dual<1>::variable(x, 0)});
+    const auto slipping = weakening.bound(InterfaceState<Dual<1>>{3, Dual<1>::variable(x, 0)});
     CHECK(slipping.d_slip.value == doctest::Approx(slipping.value.slope[0]).epsilon(1e-14));
-    const auto rating = stribeck.bound(FrictionPoint<Dual<1>>{3, 0, 0, Dual<1>::variable(x, 0)});
+    const auto rating = stribeck.bound(InterfaceState<Dual<1>>{3, 0, 0, Dual<1>::variable(x, 0)});
     CHECK(rating.d_rate.value == doctest::Approx(rating.value.slope[0]).epsilon(1e-14));
     CHECK(rating.value.value == doctest::Approx(3 * stribeck.coefficient(x)).epsilon(1e-15));
   }
-  CHECK(weakening.bound(FrictionPoint<Real>{1, 0}).value == doctest::Approx(0.4));
-  CHECK(weakening.bound(FrictionPoint<Real>{1, 0.1}).value == doctest::Approx(0.15 + 0.25 * std::exp(-1)));
-  CHECK(weakening.bound(FrictionPoint<Real>{1, 10}).value == doctest::Approx(0.15));
+  CHECK(weakening.bound(InterfaceState<Real>{1, 0}).value == doctest::Approx(0.4));
+  CHECK(weakening.bound(InterfaceState<Real>{1, 0.1}).value == doctest::Approx(0.15 + 0.25 * std::exp(-1)));
+  CHECK(weakening.bound(InterfaceState<Real>{1, 10}).value == doctest::Approx(0.15));
   CHECK(stribeck.coefficient(0) == doctest::Approx(0.4));
-  CHECK(stribeck.bound(FrictionPoint<Real>{1, 0}).d_rate == 0);
+  CHECK(stribeck.bound(InterfaceState<Real>{1, 0}).d_rate == 0);
   CHECK(stribeck.coefficient(0.3) == doctest::Approx(0.15 + 0.25 * std::exp(-1)).epsilon(0.02));
   CHECK(stribeck.coefficient(10) == doctest::Approx(0.15));
 }
@@ -124,9 +124,10 @@ TEST_CASE("a step so short that Stribeck's bound falls faster than the sticking 
       const auto old = node.preloaded<Real>(path, blink);
       const auto now = node.at<Real>(path.back(), old, blink);
       REQUIRE(now.sliding);
-      CHECK(now.cause == Cause::none);
+      CHECK(now.cause == FailureCause::none);
       CHECK(now.dissipated > 0);
-      const Real slid = now.memory.friction.slip - old.friction.slip, p = old.friction.pressure.pressure;
+      const Real slid = now.memory.friction.accumulated_slip - old.friction.accumulated_slip,
+                 p = old.friction.pressure.pressure;
       CHECK(now.memory.friction.traction[0] == doctest::Approx(stribeck.coefficient(slid / blink) * p).epsilon(1e-12));
       CHECK(verify::contact_tangent(node, path, blink).by_duals < 1e-9);
     }
@@ -138,7 +139,7 @@ TEST_CASE("a step without duration has no speed") {
     const std::vector<V> path{place(scene, -0.01, 0), place(scene, 0.02, 0.3)};
     const auto now = node.at<Real>(path.back(), node.preloaded<Real>(path, 0), 0);
     CHECK(now.sliding);
-    CHECK(now.cause == Cause::none);
+    CHECK(now.cause == FailureCause::none);
     CHECK(std::abs(now.memory.friction.traction[0]) == doctest::Approx(0.4 * now.pressure.value).epsilon(1e-12));
   }
 }
@@ -190,7 +191,7 @@ TEST_CASE("extrapolated pressure: linear in time, weighted by the steps, clipped
 }
 
 // A sliding node whose pressure friction lowers, p = load(t) - kappa times the pressure in the bound: its error against
-// the current pressure, load / (1 + kappa), after so many equal steps of size h (theory.md, eq. 5.12 and 5.25).
+// the current pressure, load / (1 + kappa), after so many equal steps of size h (theory.md, eq. 5.13 and 5.27).
 template <class Source, class Load>
 Real error_after(int steps, Real h, Real kappa, Load&& load) {
   typename Source::template Memory<Real> memory{};

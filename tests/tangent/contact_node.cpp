@@ -19,9 +19,9 @@ struct SlipWeakening {
   Real mu_static = 0.4, mu_dynamic = 0.15, length = 0.1;
 
   template <class S>
-  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+  FrictionBound<S> bound(const InterfaceState<S>& at) const {
     using std::exp;
-    const S fading = S(mu_static - mu_dynamic) * exp(at.slip * (-1 / length));
+    const S fading = S(mu_static - mu_dynamic) * exp(at.accumulated_slip * (-1 / length));
     const S mu = S(mu_dynamic) + fading;
     return {at.pressure * mu, mu, at.pressure * fading * S(-1 / length)};
   }
@@ -36,8 +36,8 @@ struct Adhesion {
   static constexpr bool depends_on_slip = true;
   Real strength = 3, hardening = 5;
   template <class S>
-  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
-    return {S(strength) + at.slip * hardening, S(0), S(hardening)};
+  FrictionBound<S> bound(const InterfaceState<S>& at) const {
+    return {S(strength) + at.accumulated_slip * hardening, S(0), S(hardening)};
   }
 };
 static_assert(FrictionPolicy<SlipWeakening> && FrictionPolicy<Quasi<SlipWeakening>> && FrictionPolicy<Adhesion>);
@@ -78,7 +78,7 @@ TEST_CASE("a user's adhesion that hardens: every state of a node") {
 
 TEST_CASE("frictionless: every state of a node") {
   for (const Scene& scene : scenes) {
-    const verify::LoneNode<Penalty, Nothing<Scene>, Frictionless, rigid::Profile> node{
+    const verify::SingleNode<Penalty, Empty<Scene>, Frictionless, rigid::Profile> node{
         .enforcement = penalty, .law = {}, .friction = {}, .tool = scene.tool};
     for (const Real depth : {-0.02, 0.01, 0.2}) {
       const std::vector<V> path{place(scene, depth, 0.1)};

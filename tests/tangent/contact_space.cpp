@@ -54,7 +54,7 @@ V place(const Tool&, Real depth, Real along, Real across) {
 
 template <class Friction, class Tool, class Enforcement = Penalty>
 auto node_on(const Tool& tool, const typename Friction::Law& law, const Enforcement& enforcement = penalty) {
-  return verify::LoneNode<Enforcement, typename Friction::Law, Friction, Tool, 3>{
+  return verify::SingleNode<Enforcement, typename Friction::Law, Friction, Tool, 3>{
       .enforcement = enforcement, .law = law, .friction = {}, .tool = tool, .weight = 1.7, .area = 2.5};
 }
 
@@ -83,8 +83,8 @@ void check_tangents(const Tool& tool, const typename Friction::Law& law) {
       const auto open =
           verify::relation_report<3>(path.back(), share * now.pressure.value, 1e-5, 1e-4 * now.pressure.value,
                                      [&](const V& x, Real p) { return node.open(x, old, p, dt); });
-      CHECK(open.slope < 1e-8);
-      CHECK(open.excess < 1e-8);
+      CHECK(open.gradient < 1e-8);
+      CHECK(open.force < 1e-8);
       CHECK(open.tangent < 1e-8);
     }
   }
@@ -97,7 +97,7 @@ TEST_CASE("tools of a user's own in space: place, and all derivatives") {
     const V x(normal(random), normal(random), normal(random) + 1);
     CHECK(verify::tool_derivatives(Ball{}, x).worst() < 1e-9 / std::min(1.0, std::pow(x.norm(), 3)));
     CHECK(verify::tool_derivatives(Floor{}, x).worst() < 1e-14);
-    CHECK(surface_point<Real, 3>(Ball{}, x).place.norm() == doctest::Approx(2).epsilon(1e-13));
+    CHECK(surface_point<Real, 3>(Ball{}, x).surface_coordinate.norm() == doctest::Approx(2).epsilon(1e-13));
   }
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("space: a path in a plane through a ball's centre is that on a disc, t
   const Ball ball;
   const rigid::Profile disc = rigid::disc({0, 0}, 2);
   const auto node = node_on<Coulomb>(ball, {.mu = 0.3});
-  const verify::LoneNode<Penalty, Coulomb, Coulomb, rigid::Profile> flat{
+  const verify::SingleNode<Penalty, Coulomb, Coulomb, rigid::Profile> flat{
       .enforcement = penalty, .law = {.mu = 0.3}, .friction = {}, .tool = disc, .weight = 1.7};
   std::vector<Real> errors;
   for (const int steps : {40, 80, 160}) {
@@ -151,7 +151,8 @@ TEST_CASE("space: a path in a plane through a ball's centre is that on a disc, t
     const auto b = flat.at<Real>(section.back(), flat.preloaded<Real>(section, dt), dt);
     CHECK(std::abs(a.force[1]) < 1e-12);
     errors.push_back((Vec<Real, 2>(a.force[0], a.force[2]) - b.force).norm() / b.force.norm());
-    CHECK(a.memory.friction.slip == doctest::Approx(b.memory.friction.slip).epsilon(0.05 / steps));
+    CHECK(a.memory.friction.accumulated_slip ==
+          doctest::Approx(b.memory.friction.accumulated_slip).epsilon(0.05 / steps));
   }
   CHECK(errors[0] < 2e-4);
   CHECK(std::log2(errors[0] / errors[1]) > 1.7);
@@ -221,7 +222,7 @@ TEST_CASE("anisotropic Coulomb: the ellipse, its normal, and the circle as a spe
   const auto b = plain.at<Real>(path.back(), plain.preloaded<Real>(path, dt), dt);
   CHECK((a.force - b.force).norm() < 1e-12 * b.force.norm());
   CHECK((a.stiffness - b.stiffness).norm() < 1e-12 * b.stiffness.norm());
-  CHECK(a.memory.friction.slip == doctest::Approx(b.memory.friction.slip).epsilon(1e-12));
+  CHECK(a.memory.friction.accumulated_slip == doctest::Approx(b.memory.friction.accumulated_slip).epsilon(1e-12));
   CHECK_THROWS_WITH(AnisotropicCoulomb{}.validate(),
                     "anisotropic Coulomb friction: both coefficients must be positive");
 }

@@ -32,7 +32,7 @@ inline const std::vector<Scene> scenes{
 /// Places by depth below the surface and distance along it from the scene's point.
 inline V place(const Scene& scene, Real depth, Real along) {
   const auto at = scene.tool.closest(V(scene.surface * (1 + 1e-12)));
-  const V t = at.grad_place.col(0).normalized();
+  const V t = at.grad_surface.col(0).normalized();
   V x = scene.surface + along * t;
   for (int i = 0; i < 5; ++i) {
     const auto here = scene.tool.closest(x);
@@ -43,13 +43,13 @@ inline V place(const Scene& scene, Real depth, Real along) {
 
 template <class Friction>
 auto node_on(const Scene& scene, const typename Friction::Law& law) {
-  return verify::LoneNode<Penalty, typename Friction::Law, Friction, rigid::Profile>{
+  return verify::SingleNode<Penalty, typename Friction::Law, Friction, rigid::Profile>{
       .enforcement = penalty, .law = law, .friction = {}, .tool = scene.tool, .weight = 1.7, .area = area};
 }
 
 /// The pressure that the bound takes at a node of the pressure `now`.
 template <class Friction, class Memory>
-Real felt(Real now, const Memory& old) {
+Real bound_pressure(Real now, const Memory& old) {
   if constexpr (Friction::Law::depends_on_pressure)
     return Friction::Pressure::pressure(now, old.friction.pressure, dt);
   else
@@ -58,8 +58,9 @@ Real felt(Real now, const Memory& old) {
 /// The bound that a step must have ended at.
 template <class Friction, class Node, class Memory>
 Real bound_of(const typename Friction::Law& law, const Node& now, const Memory& old) {
-  const Real slip = now.memory.friction.slip, slid = slip - old.friction.slip;
-  return law.bound(FrictionPoint<Real>{felt<Friction>(now.pressure.value, old), slip, area, slid / dt}).value;
+  const Real slip = now.memory.friction.accumulated_slip, slid = slip - old.friction.accumulated_slip;
+  return law.bound(InterfaceState<Real>{bound_pressure<Friction>(now.pressure.value, old), slip, area, slid / dt})
+      .value;
 }
 
 enum class Expect { separated, sticking, sliding };
@@ -74,7 +75,7 @@ void check(const Scene& scene, const typename Friction::Law& law, const std::vec
   CHECK(now.sliding == (expect == Expect::sliding));
   CHECK(now.dissipated >= 0);
   CHECK((now.dissipated > 0) == (expect == Expect::sliding && now.memory.friction.traction[0] != 0 &&
-                                 now.memory.friction.slip > old.friction.slip));
+                                 now.memory.friction.accumulated_slip > old.friction.accumulated_slip));
   if (expect == Expect::sliding)
     CHECK(std::abs(now.memory.friction.traction[0]) ==
           doctest::Approx(bound_of<Friction>(law, now, old)).epsilon(1e-12));
@@ -88,11 +89,11 @@ void check(const Scene& scene, const typename Friction::Law& law, const std::vec
       const Real pressure = share * now.pressure.value;
       const auto open = verify::relation_report<2>(path.back(), pressure, 1e-5, 1e-4 * pressure,
                                                    [&](const V& x, Real p) { return node.open(x, old, p, dt); });
-      CHECK(open.slope < 1e-8);
-      CHECK(open.excess < 1e-8);
+      CHECK(open.gradient < 1e-8);
+      CHECK(open.force < 1e-8);
       CHECK(open.tangent < 1e-8);
     }
-    CHECK(now.pressure.defect == 0);
+    CHECK(now.pressure.residual == 0);
   }
   if (expect == Expect::separated) {
     CHECK(now.force.norm() == 0);
@@ -160,8 +161,8 @@ void check_walk(const typename Friction::Law& law) {
       along = std::clamp(along + 0.03 * normal(random), -0.8, 0.8);
       const auto now = node.template at<Real>(place(scene, 0.03 + 0.02 * normal(random), along), memory, dt);
       CHECK(now.dissipated >= 0);
-      CHECK(now.memory.friction.slip >= slip);
-      slip = now.memory.friction.slip;
+      CHECK(now.memory.friction.accumulated_slip >= slip);
+      slip = now.memory.friction.accumulated_slip;
       const Real bound = bound_of<Friction>(law, now, memory);
       if (now.touching) CHECK(std::abs(now.memory.friction.traction[0]) <= bound * (1 + 1e-12) + 1e-13);
       if (!now.touching) CHECK(now.memory.friction.traction[0] == 0);

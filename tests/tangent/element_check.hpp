@@ -27,31 +27,31 @@ inline U displacement(Real scale) {
 
 /// Tangents of one element, elastic (small and large) and plastic after plastic preloads, at the end of a path.
 template <class Element, class Kinematics, class Material>
-void check_tangent(const verify::LoneElement<Element, Kinematics, Material>& element,
+void check_tangent(const verify::SingleElement<Element, Kinematics, Material>& element,
                    const std::vector<Vec<Real, Element::nodes * Element::dim>>& path) {
   constexpr int n = Element::nodes * Element::dim;
   const auto r = verify::element_tangent(element, path, 1, 2e-5);
   CHECK(r.by_duals < 1e-11);
   CHECK(r.by_differences < 1e-8);
   if constexpr (Material::symmetry == Symmetry::symmetric) CHECK(r.asymmetry == 0);
-  if constexpr (has_stiff_relation<Element>) {
+  if constexpr (has_condensed_unknown<Element>) {
     const auto old = element.template preloaded<Real>(path);
-    const Real settled = element.open(path.back(), old, 0).relation.defect;
-    CHECK(element.open(path.back(), old, settled).relation.defect == 0);
+    const Real settled = element.open(path.back(), old, 0).relation.residual;
+    CHECK(element.open(path.back(), old, settled).relation.residual == 0);
     CHECK(verify::relative_error(element.open(path.back(), old, settled).tangent,
                                  element.template at<Real>(path.back(), old).tangent) < 1e-13);
     for (const Real open : {-0.02, 0.03}) {
       const auto q = verify::relation_report<n>(path.back(), settled + open, 2e-5, 1e-5,
                                                 [&](const Vec<Real, n>& u, Real l) { return element.open(u, old, l); });
-      CHECK(q.slope < 1e-8);
-      CHECK(q.excess < 1e-8);
+      CHECK(q.gradient < 1e-8);
+      CHECK(q.force < 1e-8);
       CHECK(q.tangent < 1e-8);
     }
   }
 }
 template <class Element, class Kinematics, class Material>
 void check(const Material& material, const std::vector<std::vector<U>>& paths) {
-  const verify::LoneElement<Element, Kinematics, Material> element{.material = material, .X = distorted()};
+  const verify::SingleElement<Element, Kinematics, Material> element{.material = material, .X = distorted()};
   for (const auto& path : paths) check_tangent(element, path);
 }
 
@@ -66,7 +66,7 @@ void check_all(const Material& material, const std::vector<std::vector<U>>& path
 /// Whether any point of the element flows at the end of the path.
 template <class Element, class Material>
 bool flows(const Material& material, const std::vector<U>& path) {
-  const verify::LoneElement<Element, PlaneStrain, Material> element{.material = material, .X = distorted()};
+  const verify::SingleElement<Element, PlaneStrain, Material> element{.material = material, .X = distorted()};
   const auto old = element.template preloaded<Real>(path);
   const auto now = element.template at<Real>(path.back(), old).states;
   for (std::size_t p = 0; p < now.size(); ++p)

@@ -15,7 +15,7 @@ TEST_CASE("tangent of elements of Hencky's law") {
 template <class Element, class Kinematics>
 void check_energy() {
   // The forces are the gradient of the sum of W(F_bar) over the points: the element has a potential.
-  const verify::LoneElement<Element, Kinematics, Hencky> element{.material = material, .X = distorted()};
+  const verify::SingleElement<Element, Kinematics, Hencky> element{.material = material, .X = distorted()};
   const U u = displacement(1);
   const Vec<Dual<8>, 8> dual_u = verify::seeded<8>(u);
   const auto F =
@@ -36,7 +36,7 @@ TEST_CASE("element forces derive from the stored energy") {
 TEST_CASE("one dilatation in the whole element of mean dilatation, several in the plain one") {
   const auto spread = [](auto tag) {
     using Element = decltype(tag);
-    const verify::LoneElement<Element, PlaneStrain, Hencky> element{.material = material, .X = distorted()};
+    const verify::SingleElement<Element, PlaneStrain, Hencky> element{.material = material, .X = distorted()};
     const auto F =
         Element::template deformation<PlaneStrain, Real, Real>(element.template geometry_in<Real>(), displacement(1));
     Real low = 1e300, high = -1e300;
@@ -51,8 +51,9 @@ TEST_CASE("one dilatation in the whole element of mean dilatation, several in th
 }
 
 TEST_CASE("an element that turns inside out says so") {
-  const verify::LoneElement<MeanDilatation<Quad4>, PlaneStrain, Hencky> mean{.material = material, .X = distorted()};
-  const verify::LoneElement<FullyIntegrated<Quad4>, PlaneStrain, Hencky> plain{.material = material, .X = distorted()};
+  const verify::SingleElement<MeanDilatation<Quad4>, PlaneStrain, Hencky> mean{.material = material, .X = distorted()};
+  const verify::SingleElement<FullyIntegrated<Quad4>, PlaneStrain, Hencky> plain{.material = material,
+                                                                                 .X = distorted()};
   U u = U::Zero();
   u[4] = -3;
   CHECK(std::isnan(mean.at<Real>(u, {}).residual[0]));
@@ -62,9 +63,10 @@ TEST_CASE("an element that turns inside out says so") {
 // A material whose tangent has no symmetry: the elements must not mirror it.
 struct Skewed : Hencky {
   static constexpr Symmetry symmetry = Symmetry::general;
-  template <class S, class Shape>
-  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>& old,
-                                                      Real dt) const {
+  template <class S, class TensorPattern>
+  MaterialResponse<S, TensorPattern, State<S, TensorPattern>> respond(const Tensor<S, TensorPattern>& F,
+                                                                      const State<S, TensorPattern>& old,
+                                                                      Real dt) const {
     auto out = Hencky::respond(F, old, dt);
     // A follower-like stress that derives from no energy: P_11 += c F_22^2.
     out.P(0, 0) += S(young * 0.1) * F(1, 1) * F(1, 1);
@@ -80,11 +82,11 @@ TEST_CASE("elements carry a non-symmetric material's tangent") {
     CHECK(r.asymmetry > 1e-3);
   };
   check_general(
-      verify::LoneElement<MeanDilatation<Quad4>, PlaneStrain, Skewed>{.material = {{material}}, .X = distorted()});
+      verify::SingleElement<MeanDilatation<Quad4>, PlaneStrain, Skewed>{.material = {{material}}, .X = distorted()});
   check_general(
-      verify::LoneElement<MeanDilatation<Quad4>, Axisymmetric, Skewed>{.material = {{material}}, .X = distorted()});
+      verify::SingleElement<MeanDilatation<Quad4>, Axisymmetric, Skewed>{.material = {{material}}, .X = distorted()});
   check_general(
-      verify::LoneElement<FullyIntegrated<Quad4>, Axisymmetric, Skewed>{.material = {{material}}, .X = distorted()});
+      verify::SingleElement<FullyIntegrated<Quad4>, Axisymmetric, Skewed>{.material = {{material}}, .X = distorted()});
 }
 
 }  // namespace element_hencky

@@ -17,7 +17,7 @@ using Path = std::vector<U>;
 using Mean = MeanDilatation<Hex8>;
 using Plain = FullyIntegrated<Hex8>;
 template <class Element, class Material>
-using Lone = verify::LoneElement<Element, ThreeDimensional, Material>;
+using Lone = verify::SingleElement<Element, ThreeDimensional, Material>;
 
 const Hencky hencky{.young = 200e3, .poisson = 0.3};
 const FiniteJ2<PowerHardening> power{

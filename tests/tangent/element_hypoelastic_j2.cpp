@@ -23,7 +23,7 @@ TEST_CASE("tangent of elements that stay elastic, hypoelastic J2: not symmetric"
   const Material hard{.young = 69e3, .poisson = 0.33, .hardening = {.yield = 1e6, .modulus = 260}};
   CHECK_FALSE(flows<MeanDilatation<Quad4>>(hard, paths[1]));
   check_all(hard, paths);
-  const verify::LoneElement<MeanDilatation<Quad4>, PlaneStrain, Material> element{.material = hard, .X = distorted()};
+  const verify::SingleElement<MeanDilatation<Quad4>, PlaneStrain, Material> element{.material = hard, .X = distorted()};
   CHECK(verify::element_tangent(element, paths[1]).asymmetry > 1e-3);
 }
 

@@ -180,8 +180,8 @@ TEST_CASE("plastic flow keeps the volume and the energy of what is elastic gives
 }
 
 struct Wrong : Hencky {
-  template <class S, class Shape>
-  auto respond(const Tensor<S, Shape>& F, const State<S, Shape>& old, Real dt) const {
+  template <class S, class TensorPattern>
+  auto respond(const Tensor<S, TensorPattern>& F, const State<S, TensorPattern>& old, Real dt) const {
     auto out = Hencky::respond(F, old, dt);
     out.dP_dF(0, 3) *= S(1.001);
     return out;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <stickslip/assembly/system.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
 #include <stickslip/enforcement/no_contact.hpp>
 #include <stickslip/enforcement/penalty.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
+#include <stickslip/solve/system.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 #include <stickslip/verify/system.hpp>
 
 #include <doctest/doctest.h>
@@ -37,7 +37,7 @@ struct Model {
   using Material = FiniteJ2<LinearHardening>;
   using Friction = F;
   using Enforcement = Penalty;
-  using Inertia = Quasistatic;
+  using TimeIntegration = Quasistatic;
   using LinearSolver = AnySolver;
 };
 
@@ -58,21 +58,21 @@ verify::TangentReport check() {
   System<M> system(body, pairs, inertia, {{"top", 1, [](Real t) { return -0.1 * t; }}},
                    {{"right", 0, [](Real t) { return 3 * t; }}});
   Field u = Field::Zero(system.dofs().components());
-  pairs.front().start(body.mesh(), u, 0);
+  pairs.front().start(u, 0);
   // One committed step, which leaves pressures and plastic strains, then the state that is checked.
-  Trouble trouble = system.impose(1, u);
+  Failure failure = system.prescribed().apply_constraints(1, u);
   for (Index i = 0; i < u.size(); ++i)
-    u[i] += system.dofs().equation(i) == Dofs::constrained ? 0 : 0.01 * std::sin(3.0 * i);
-  trouble = system.evaluate(u, 1, 1);
-  CHECK_FALSE(bool(trouble));
+    u[i] += system.dofs().equation(i) == IndexMap::constrained ? 0 : 0.01 * std::sin(3.0 * i);
+  failure = system.evaluate(u, 1, 1);
+  CHECK_FALSE(bool(failure));
   system.commit();
-  trouble = system.impose(2, u);
+  failure = system.prescribed().apply_constraints(2, u);
   for (Index i = 0; i < u.size(); ++i)
-    u[i] += system.dofs().equation(i) == Dofs::constrained ? 0 : 0.02 * std::cos(2.0 * i);
-  trouble = system.evaluate(u, 2, 1);
-  CHECK_FALSE(bool(trouble));
-  CHECK(system.contact_summary().touching >= 1);
-  CHECK(system.contact_summary().sliding >= 1);
+    u[i] += system.dofs().equation(i) == IndexMap::constrained ? 0 : 0.02 * std::cos(2.0 * i);
+  failure = system.evaluate(u, 2, 1);
+  CHECK_FALSE(bool(failure));
+  CHECK(contact_summary(system.pairs()).touching >= 1);
+  CHECK(contact_summary(system.pairs()).sliding >= 1);
   return verify::system_tangent(system, u, 2, 1, 1e-6);
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("tangent of a whole system in space") {
   Field u = Field::Zero(system.dofs().components());
   for (const Real frequency : {3.0, 2.0}) {
     for (Index i = 0; i < u.size(); ++i)
-      u[i] += system.dofs().equation(i) == Dofs::constrained ? 0 : 0.03 * std::sin(frequency * i);
+      u[i] += system.dofs().equation(i) == IndexMap::constrained ? 0 : 0.03 * std::sin(frequency * i);
     CHECK_FALSE(bool(system.evaluate(u, 1, 1)));
     if (frequency == 3.0) system.commit();
   }
@@ -119,15 +119,15 @@ TEST_CASE("the tangent predictor carries the driven increments") {
   System<M> system(body, pairs, inertia, {{"top", 1, nullptr}, {"bottom", 1, nullptr}}, {});
   Field u = Field::Zero(system.dofs().components()), driven = u;
   for (const Index n : body.mesh().side("top").nodes) driven[2 * n + 1] = -1e-6;
-  system.begin_iteration();
-  Trouble trouble = system.iterate(u, 0, 1, &driven);
-  CHECK_FALSE(bool(trouble));
-  const Field predicted = system.residual();
+  {
+    System<M>::Iterate iterate(system);
+    CHECK_FALSE(bool(iterate.evaluate(u, 0, 1, Want::tangent, &driven)));
+  }
+  const Field predicted = system.forces().residual;
   u += driven;
-  trouble = system.evaluate(u, 0, 1);
-  CHECK_FALSE(bool(trouble));
+  CHECK_FALSE(bool(system.evaluate(u, 0, 1)));
   CHECK(predicted.norm() > 0);
-  CHECK((predicted - system.residual()).norm() < 1e-5 * predicted.norm());
+  CHECK((predicted - system.forces().residual).norm() < 1e-5 * predicted.norm());
 }
 
 }  // namespace

@@ -121,8 +121,8 @@ TEST_CASE("gap, normal and place do not jump at smooth joints") {
       CHECK(std::abs(before.gap - d) < 1e-14);
       CHECK(std::abs(after.gap - d) < 1e-14);
       CHECK((before.normal - after.normal).norm() < 10 * h);
-      CHECK(std::abs(after.place[0] - before.place[0] - 2 * h) < 2 * h);
-      CHECK(std::abs(before.place[0] - expected_place) < 3 * h);
+      CHECK(std::abs(after.surface_coordinate[0] - before.surface_coordinate[0] - 2 * h) < 2 * h);
+      CHECK(std::abs(before.surface_coordinate[0] - expected_place) < 3 * h);
     }
     expected_place += lengths[j];
   }
@@ -130,7 +130,8 @@ TEST_CASE("gap, normal and place do not jump at smooth joints") {
 
 TEST_CASE("the seam of a closed chain counts the short way") {
   const auto disc = rigid::disc({0, 0}, 2);  // seam at (-2, 0)
-  const Real before = disc.closest(V(-2.1, -0.01)).place[0], after = disc.closest(V(-2.1, 0.01)).place[0];
+  const Real before = disc.closest(V(-2.1, -0.01)).surface_coordinate[0],
+             after = disc.closest(V(-2.1, 0.01)).surface_coordinate[0];
   CHECK(std::abs(after - before) > 6 * pi / 2);
   CHECK(std::abs(disc.difference(after, before) - 2 * 2 * std::atan2(0.01, 2.1)) < 1e-12);
   CHECK(std::abs(disc.difference(before, after) + 2 * 2 * std::atan2(0.01, 2.1)) < 1e-12);

@@ -14,8 +14,6 @@
 #include <stickslip/friction/slip_weakening.hpp>
 #include <stickslip/friction/stribeck.hpp>
 #include <stickslip/friction/tresca.hpp>
-#include <stickslip/inertia/generalized_alpha.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
@@ -25,6 +23,8 @@
 #include <stickslip/material/hypoelastic_j2.hpp>
 #include <stickslip/material/neo_hookean.hpp>
 #include <stickslip/policy/model.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 
 #include <boost/mp11.hpp>
 
@@ -120,7 +120,7 @@ enum Solver_ {
 constexpr std::size_t solvers = 10;
 template <Solver_>
 struct SolverType;
-/// What a bundle's contracts look at of either.
+/// What a model's contracts look at of either.
 template <Symmetry accepted>
 struct DeclaredSolver {
   using Role = role::LinearSolver;
@@ -132,16 +132,16 @@ struct DeclaredSolver {
 };
 template <class L, Symmetry accepted>
 constexpr bool is_as_declared =
-    LinearSolverPolicy<L>&& L::accepts == accepted&& L::storage == accepted && !takes_corrections<L>;
+    LinearSolverPolicy<L>&& L::accepts == accepted&& L::storage == accepted && !accepts_couplings<L>;
 
 template <class K, class T, class M, class B, class S, class E, class I, class L>
-struct Bundle {
+struct Combination {
   using Kinematics = K;
   using Element = typename T::template Element<K::dim>;
   using Material = M;
   using Friction = typename FrictionOf<B, S>::type;
   using Enforcement = E;
-  using Inertia = I;
+  using TimeIntegration = I;
   using LinearSolver = L;
 };
 
@@ -166,9 +166,9 @@ struct Row {
   }
 };
 template <Row row>
-using ModelOf =
-    Bundle<mp_at_c<AllKinematics, row.kinematics>, mp_at_c<Treatments, row.treatment>, mp_at_c<Materials, row.material>,
-           mp_at_c<Bounds, row.bound>, mp_at_c<Sources, row.source>, mp_at_c<Enforcements, row.enforcement>,
-           mp_at_c<Inertias, row.inertia>, typename SolverType<row.solver>::type>;
+using ModelOf = Combination<mp_at_c<AllKinematics, row.kinematics>, mp_at_c<Treatments, row.treatment>,
+                            mp_at_c<Materials, row.material>, mp_at_c<Bounds, row.bound>, mp_at_c<Sources, row.source>,
+                            mp_at_c<Enforcements, row.enforcement>, mp_at_c<Inertias, row.inertia>,
+                            typename SolverType<row.solver>::type>;
 
 }  // namespace typed

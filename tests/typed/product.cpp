@@ -9,7 +9,7 @@
 
 namespace typed {
 
-// What the contracts say of every bundle with a solver of one kind, in the order of mp_product over the other axes. In
+// What the contracts say of every model with a solver of one kind, in the order of mp_product over the other axes. In
 // two stages: one list of all models would take gigabytes to compile.
 using Bodies = mp_product<mp_list, AllKinematics, Treatments, Materials>;
 using Contacts_ = mp_product<mp_list, Bounds, Sources, Enforcements, Inertias>;
@@ -21,7 +21,7 @@ struct Verdicts<Solver, mp_list<B...>, mp_list<C...>> {
   template <class Contact>
   struct With;
   template <class... P>
-  struct With<mp_list<P...>> : std::bool_constant<valid_model<Bundle<B..., P..., Solver>>> {};
+  struct With<mp_list<P...>> : std::bool_constant<valid_model<Combination<B..., P..., Solver>>> {};
   static constexpr bool all[] = {With<C>::value...};
 };
 template <Symmetry accepted>

@@ -128,13 +128,15 @@ void check_contact(const Facts& facts, const Answer& answer) {
     const Real slope = std::hypot(step.rubbing[0], step.rubbing[2]);
     CHECK(step.rubbing[1] > 1);
     CHECK(contact.dissipated >= 0);
-    CHECK(slope <= (contact.bound + step.report.lag * contact.bound) * (1 + 1e-9) + 1e-12 * step.rubbing[1]);
+    CHECK(slope <= (contact.friction_capacity + step.report.lag * contact.friction_capacity) * (1 + 1e-9) +
+                       1e-12 * step.rubbing[1]);
     CHECK((step.report.lag == 0 || !facts.follows));
     if (facts.augmented)
       CHECK(contact.max_penetration < 0.51e-4);  // in parts of the distance of the nodes, which is half a unit
     else
       CHECK(contact.max_penetration > 1e-4);
-    CHECK((step.report.passes == 1 || facts.passes || (facts.lags && step.report.passes == 2)));  // a first contact
+    CHECK((step.report.outer_iterations == 1 || facts.outer_iterations ||
+           (facts.lags && step.report.outer_iterations == 2)));  // a first contact
     dissipated += contact.dissipated;
   }
   const Step& end = answer.steps.back();

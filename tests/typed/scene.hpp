@@ -11,10 +11,10 @@
 
 namespace typed {
 
-/// What the bundle says of itself.
+/// What the model says of itself.
 struct Facts {
   int dim;
-  bool hoop, contact, friction, wall, augmented, follows, passes, lags, plastic, inertia;
+  bool hoop, contact, friction, wall, augmented, follows, outer_iterations, lags, plastic, inertia;
   Symmetry material, system, storage;
 };
 /// One step of a run; vectors of the plane have a third component of zero.
@@ -87,7 +87,7 @@ Contact<Model, Friction> rubbing() {
   if constexpr (Friction::active) give(contact.friction);
   return contact;
 }
-// The mechanics are what a contact knows of its bundle, and what can be deduced from it.
+// The mechanics are what a contact knows of its model, and what can be deduced from it.
 template <class M>
 void add_contacts(std::vector<ContactOf<M, typename M::Friction>>& contacts) {
   contacts.push_back(rubbing<M, typename M::Friction>());
@@ -110,7 +110,7 @@ Answer press_and_drag() {
   };
   typename Problem<Model>::Parameters parameters{.body = block(std::integral_constant<int, dim>{})};
   give(parameters.material);
-  if constexpr (has_inertia<Model>) parameters.inertia.density = 20;
+  if constexpr (has_inertia<Model>) parameters.time_integration.density = 20;
   if constexpr (has_contact<Model>) add_contacts(parameters.contacts);
   Problem<Model> problem(std::move(parameters));
   for (Index i = 0; i < dim; ++i) {
@@ -141,7 +141,7 @@ Answer press_and_drag() {
       const auto& system = problem.system();
       if constexpr (has_contact<Model>)
         for (Index c = 0; c < force.size(); ++c)
-          if (system.dofs().equation(c) != Dofs::constrained) force[c] -= system.contact()[c];
+          if (system.dofs().equation(c) != IndexMap::constrained) force[c] -= system.forces().contact[c];
       step.momentum = total(force, dim);
     }
   }
@@ -165,7 +165,7 @@ void run() {
          .wall = row.bound == by_pair,
          .augmented = is_augmented<typename Model::Enforcement>,
          .follows = has_friction<Model> && friction_symmetry<typename Model::Friction>() == Symmetry::general,
-         .passes = takes_passes<Model>(),
+         .outer_iterations = has_outer_iterations<Model>(),
          .lags = has_lag<Model>(),
          .plastic = is_plastic<typename Model::Material>,
          .inertia = has_inertia<Model>,

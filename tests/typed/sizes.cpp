@@ -21,8 +21,9 @@ using Each = std::make_index_sequence<mp_size<Axis>::value>;
 template <std::size_t k, std::size_t t, std::size_t m, std::size_t b, std::size_t s, std::size_t e, std::size_t i,
           std::size_t l>
 constexpr int checked() {
-  using Model = Bundle<mp_at_c<AllKinematics, k>, mp_at_c<Treatments, t>, mp_at_c<Materials, m>, mp_at_c<Bounds, b>,
-                       mp_at_c<Sources, s>, mp_at_c<Enforcements, e>, mp_at_c<Inertias, i>, mp_at_c<Solvers, l>>;
+  using Model =
+      Combination<mp_at_c<AllKinematics, k>, mp_at_c<Treatments, t>, mp_at_c<Materials, m>, mp_at_c<Bounds, b>,
+                  mp_at_c<Sources, s>, mp_at_c<Enforcements, e>, mp_at_c<Inertias, i>, mp_at_c<Solvers, l>>;
   if constexpr (valid_model<Model>) check_sizes<Model, m, b, s, e>();
   return valid_model<Model> ? 1 : 0;
 }

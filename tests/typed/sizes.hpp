@@ -3,7 +3,7 @@
 
 #include "axes.hpp"
 
-#include <stickslip/assembly/system.hpp>
+#include <stickslip/solve/system.hpp>
 
 namespace typed {
 
@@ -27,7 +27,8 @@ template <class Model, std::size_t material, std::size_t bound, std::size_t sour
 constexpr void check_sizes() {
   constexpr int dim = Model::Kinematics::dim;
   static_assert(Body<Model>::bytes_per_point == numbers_per_point(material, dim) * sizeof(Real));
-  static_assert(PointMemory<typename Body<Model>::State, Model::Element::points>::stored ==
+  static_assert(History<std::array<typename Body<Model>::State, Model::Element::points>,
+                        !std::is_empty_v<typename Body<Model>::State>>::stored ==
                 (numbers_per_point(material, dim) > 0));
   static_assert(SolverOf<Model>::accepts == Symmetry::general || system_symmetry<Model> == Symmetry::symmetric);
   static_assert(matrix_storage<Model> == Symmetry::general ||
@@ -47,7 +48,7 @@ constexpr void check_sizes() {
       using Pair = ContactPair<Model>;
       static_assert(Pair::bytes_per_node == numbers(bound));
       static_assert(Pair::takes_area == (bound == capped || bound == tresca));
-      static_assert(Pair::passes == (enforcement == augmented || (source == iterated && bound != tresca)));
+      static_assert(Pair::outer_iterations == (enforcement == augmented || (source == iterated && bound != tresca)));
       static_assert(std::is_empty_v<decltype(Contact<Model>::friction)> == (bound == smooth));
     }
   }

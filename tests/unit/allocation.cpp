@@ -7,13 +7,13 @@
 #include <stickslip/enforcement/penalty.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 
 #include <doctest/doctest.h>
 
@@ -124,7 +124,7 @@ struct Model {
   using Material = FiniteJ2<PowerHardening>;
   using Friction = QuasiCoulomb;
   using Enforcement = Penalty;
-  using Inertia = Quasistatic;
+  using TimeIntegration = Quasistatic;
   using LinearSolver = Watched;
 };
 

@@ -8,8 +8,6 @@
 #include <stickslip/enforcement/penalty.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
-#include <stickslip/inertia/generalized_alpha.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/io/checkpoint.hpp>
 #include <stickslip/io/vtu.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
@@ -21,6 +19,8 @@
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/material/hypoelastic_j2.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 
 #include <doctest/doctest.h>
 
@@ -52,25 +52,27 @@ struct Folder {
 };
 
 // A law whose memory owns memory: it says itself how it is kept.
-struct Diary {
+struct OwningState {
   using Role = role::Material;
   static constexpr Symmetry symmetry = Symmetry::symmetric;
   FiniteJ2<LinearHardening> law{};
 
-  template <class S, class Shape>
+  template <class S, class TensorPattern>
   struct State {
-    FiniteJ2<LinearHardening>::State<S, Shape> inner{};
+    FiniteJ2<LinearHardening>::State<S, TensorPattern> inner{};
     std::vector<Real> strains{};
     void serialize(Archive& archive) {
       archive("inner", inner);
-      archive.any_length("strains", strains);
+      archive.resizable("strains", strains);
     }
   };
-  template <class S, class Shape>
-  MaterialResponse<S, Shape, State<S, Shape>> respond(const Tensor<S, Shape>& F, const State<S, Shape>& old,
-                                                      Real dt) const {
+  template <class S, class TensorPattern>
+  MaterialResponse<S, TensorPattern, State<S, TensorPattern>> respond(const Tensor<S, TensorPattern>& F,
+                                                                      const State<S, TensorPattern>& old,
+                                                                      Real dt) const {
     const auto inner = law.respond(F, old.inner, dt);
-    MaterialResponse<S, Shape, State<S, Shape>> out{inner.P, inner.dP_dF, {inner.state, old.strains}, inner.cause};
+    MaterialResponse<S, TensorPattern, State<S, TensorPattern>> out{
+        inner.P, inner.dP_dF, {inner.state, old.strains}, inner.cause};
     if (dt > 0) out.state.strains.push_back(value_of(inner.state.plastic_strain));
     return out;
   }
@@ -94,7 +96,7 @@ struct Plane {
   using Material = FiniteJ2<LinearHardening>;
   using Friction = QuasiCoulomb;
   using Enforcement = Penalty;
-  using Inertia = Quasistatic;
+  using TimeIntegration = Quasistatic;
   using LinearSolver = EigenLdlt;
 };
 struct Dynamic : Plane {
@@ -102,11 +104,11 @@ struct Dynamic : Plane {
   using Kinematics = Axisymmetric;
   using Material = HypoelasticJ2<LinearHardening>;
   using Friction = ExtrapolatedCoulomb;
-  using Inertia = GeneralizedAlpha;
+  using TimeIntegration = GeneralizedAlpha;
 };
 struct Multipliers : Plane {
   using Element = FullyIntegrated<Quad4>;
-  using Material = Diary;
+  using Material = OwningState;
   using LinearSolver = Tiring;
   using Friction = WithPressure<Coulomb, LagIterated>;
   using Enforcement = AugmentedLagrangian;
@@ -174,7 +176,7 @@ std::unique_ptr<Problem<Model>> scene(Index cells = 6, Real lost_from = 2) {
     j2(p.material.law);
   else
     j2(p.material);
-  if constexpr (has_inertia<Model>) p.inertia.density = 0.5;
+  if constexpr (has_inertia<Model>) p.time_integration.density = 0.5;
   if constexpr (requires { Model::Friction::per_contact; }) {
     std::get<0>(p.contacts).push_back(roller<Model, Coulomb>("top", lost_from));
     std::get<1>(p.contacts).push_back(roller<Model, Frictionless>("right", lost_from));
@@ -190,7 +192,8 @@ std::unique_ptr<Problem<Model>> scene(Index cells = 6, Real lost_from = 2) {
   return problem;
 }
 
-const MarchOptions automatic{.end = 1, .initial = 0.02, .largest = 0.08, .space_every = 3, .stops = {0.31, 0.77}};
+const MarchOptions automatic{
+    .end = 1, .initial = 0.02, .largest = 0.08, .mesh_error_interval = 3, .stops = {0.31, 0.77}};
 const MarchOptions equal{.end = 1, .steps = 25};
 
 // Bits of a run, but for the times that it took and the gaps between the members of structs.
@@ -208,10 +211,10 @@ std::vector<Section> bits(Problem<Model>& problem, March<Model>& march) {
   };
   problem.visit_contacts([&](const auto& pair) {
     for (const auto& n : pair.states())
-      keep(pair.name(), n.gap, n.slip, n.pressure, n.force.sum(), n.touching, n.sliding);
+      keep(pair.name(), n.gap, n.accumulated_slip, n.pressure, n.force.sum(), n.touching, n.sliding);
   });
   const RunReport& r = march.report();
-  keep("report", r.steps, r.iterations, r.rejected_steps, r.passes, r.work.factorizations,
+  keep("report", r.steps, r.iterations, r.rejected_steps, r.outer_iterations, r.work.factorizations,
        r.work.indefinite_factorizations, r.work.line_search_cuts, r.max_penetration, r.max_slip, r.max_lag,
        r.total_work, r.errors.lag, r.errors.time, r.errors.penetration, r.errors.space);
   return kept;
@@ -288,7 +291,7 @@ TEST_CASE("a run that failed leaves the state before the step that failed") {
   const auto lost = scene<Plane>(6, 0.5);
   auto march = lost->march(automatic);
   CHECK(!march.finish());
-  CHECK(march.outcome().trouble.cause == Cause::not_finite);
+  CHECK(march.outcome().failure.cause == FailureCause::not_finite);
   const Index rejected = march.report().rejected_steps, attempts = march.outcome().attempts;
   io::save(file, march);
   // With the same tool it fails in the same way.
@@ -541,7 +544,7 @@ TEST_CASE("files of another run are refused") {
   std::vector<Real> kept{1, 2};
   struct Beside {
     std::vector<Real>& list;
-    void serialize(Archive& archive) { archive.any_length("beside", list); }
+    void serialize(Archive& archive) { archive.resizable("beside", list); }
   } beside{kept};
   CHECK_THROWS_WITH_AS(io::load(s.file, s.march, beside), doctest::Contains("it lacks \"beside\""), std::runtime_error);
   io::save(s.file, s.march, beside);

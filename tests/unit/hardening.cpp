@@ -21,7 +21,7 @@ void check_return(const Material& material, Real gamma) {
   const T F = shear(gamma);
   const auto r = material.respond(F, {}, 1);
   CAPTURE(gamma);
-  CHECK(r.cause == Cause::none);
+  CHECK(r.cause == FailureCause::none);
   const Real q = von_mises(kirchhoff(r.P, F)), p = r.state.plastic_strain;
   const Real flow = material.hardening.flow(p).value;
   if (p > 0)

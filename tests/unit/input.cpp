@@ -9,14 +9,14 @@
 #include <stickslip/friction/slip_weakening.hpp>
 #include <stickslip/friction/stribeck.hpp>
 #include <stickslip/friction/tresca.hpp>
-#include <stickslip/inertia/generalized_alpha.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 
 #include <doctest/doctest.h>
 
@@ -33,7 +33,7 @@ struct Model {
   using Material = FiniteJ2<H>;
   using Friction = QuasiCoulomb;
   using Enforcement = Penalty;
-  using Inertia = Quasistatic;
+  using TimeIntegration = Quasistatic;
   using LinearSolver = EigenLdlt;
 };
 using Plane = Model<PlaneStrain, LinearHardening>;
@@ -356,13 +356,13 @@ TEST_CASE("runs") {
     COMPLAINS("step size", (void)p.march({.largest = wrong}));
     COMPLAINS("step size", (void)p.march({.smallest = wrong}));
     COMPLAINS("stop must be finite", (void)p.march({.stops = {0.5, wrong}}));
-    COMPLAINS("pass tolerance", (void)p.march({.pass_tolerance = wrong}));
+    COMPLAINS("pass tolerance", (void)p.march({.outer_tolerance = wrong}));
     COMPLAINS("time tolerance", (void)p.march({.time_tolerance = wrong}));
     COMPLAINS("lag tolerance", (void)p.march({.lag_tolerance = wrong}));
     COMPLAINS("step tolerance", (void)p.march({.step_tolerance = wrong}));
   }
-  COMPLAINS("wanted_iterations", (void)p.march({.wanted_iterations = 0}));
-  COMPLAINS("wanted_iterations", (void)p.march({.wanted_iterations = -4}));
+  COMPLAINS("target_iterations", (void)p.march({.target_iterations = 0}));
+  COMPLAINS("target_iterations", (void)p.march({.target_iterations = -4}));
   COMPLAINS("a first step of 1e-40 is below", (void)p.march({.initial = 1e-40}));
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <stickslip/assembly/dofs.hpp>
-#include <stickslip/assembly/facet.hpp>
+#include <stickslip/dofs/index_map.hpp>
 #include <stickslip/element/gradient_operator.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/element/quad4.hpp>
@@ -8,6 +7,7 @@
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/mesh/extrude.hpp>
+#include <stickslip/mesh/facet.hpp>
 #include <stickslip/mesh/mesh.hpp>
 #include <stickslip/mesh/quarter_disc.hpp>
 
@@ -81,12 +81,12 @@ TEST_CASE("rectangle: named sides lie on their lines, the body on the left of th
 TEST_CASE("the area that a node carries of a facet") {
   const auto m = mesh::rectangle({.origin = {1, 0}, .size = {2, 1}, .cells = {1, 1}});
   const auto bottom = m.side("bottom").facets[0];
-  CHECK(facet_share(m, PlaneStrain{.thickness = 3}, bottom, bottom[0]) == doctest::Approx(3).epsilon(1e-15));
-  CHECK(facet_share(m, PlaneStrain{.thickness = 3}, bottom, bottom[1]) == doctest::Approx(3).epsilon(1e-15));
-  CHECK(facet_share(m, PlaneStrain{}, bottom, m.side("top").nodes[0]) == 0);
+  CHECK(tributary_area(m, PlaneStrain{.thickness = 3}, bottom, bottom[0]) == doctest::Approx(3).epsilon(1e-15));
+  CHECK(tributary_area(m, PlaneStrain{.thickness = 3}, bottom, bottom[1]) == doctest::Approx(3).epsilon(1e-15));
+  CHECK(tributary_area(m, PlaneStrain{}, bottom, m.side("top").nodes[0]) == 0);
   // Axisymmetric, from r = 1 to 3: the integral of 2 pi r N_a dr.
-  const Real inner = facet_share(m, Axisymmetric{}, bottom, bottom[0]),
-             outer = facet_share(m, Axisymmetric{}, bottom, bottom[1]);
+  const Real inner = tributary_area(m, Axisymmetric{}, bottom, bottom[0]),
+             outer = tributary_area(m, Axisymmetric{}, bottom, bottom[1]);
   CHECK(inner == doctest::Approx(2 * pi * (2 * (1.0 / 2 + 2.0 / 6))).epsilon(1e-14));
   CHECK(inner + outer == doctest::Approx(pi * (9 - 1)).epsilon(1e-14));
 }
@@ -322,15 +322,15 @@ TEST_CASE("the area that a node carries of a facet in space") {
   for (const auto& q : Quad4::quadrature())
     expected += Quad4::shape(q.xi) * point_geometry<PlaneStrain, Quad4>({}, X, q.xi, q.weight).weight;
   for (const Index n : {0, 1, 2, 3})
-    CHECK(facet_share(m, ThreeDimensional{}, facet, n) == doctest::Approx(expected[n]).epsilon(1e-14));
-  CHECK(facet_share(m, ThreeDimensional{}, facet, 7) == 0);
+    CHECK(tributary_area(m, ThreeDimensional{}, facet, n) == doctest::Approx(expected[n]).epsilon(1e-14));
+  CHECK(tributary_area(m, ThreeDimensional{}, facet, 7) == 0);
   CHECK(expected.maxCoeff() > 1.2 * expected.minCoeff());
   // Warped: the shares are positive and add up to the projection along the mean normal.
   m.nodes[2] += 0.5 * cross(e, f);
   Real sum = 0;
   for (const Index n : {0, 1, 2, 3}) {
-    CHECK(facet_share(m, ThreeDimensional{}, facet, n) > 0);
-    sum += facet_share(m, ThreeDimensional{}, facet, n);
+    CHECK(tributary_area(m, ThreeDimensional{}, facet, n) > 0);
+    sum += tributary_area(m, ThreeDimensional{}, facet, n);
   }
   CHECK(sum == doctest::Approx(0.5 * cross(m.nodes[2] - m.nodes[0], m.nodes[3] - m.nodes[1]).norm()).epsilon(1e-14));
 }
@@ -355,10 +355,10 @@ TEST_CASE("trilinear shape functions: partition of one, nodal values, and gradie
 }
 
 TEST_CASE("dofs number the unknowns and move fields to and fro") {
-  const Dofs dofs(6, {false, true, false, false, true, false});
+  const IndexMap dofs(6, {false, true, false, false, true, false});
   CHECK(dofs.unknowns() == 4);
   CHECK(dofs.components() == 6);
-  CHECK(dofs.equation(1) == Dofs::constrained);
+  CHECK(dofs.equation(1) == IndexMap::constrained);
   CHECK(dofs.equation(5) == 3);
   Field field(6), unknowns(4);
   field << 1, 2, 3, 4, 5, 6;

@@ -9,7 +9,6 @@
 #include <stickslip/friction/slip_weakening.hpp>
 #include <stickslip/friction/stribeck.hpp>
 #include <stickslip/friction/tresca.hpp>
-#include <stickslip/inertia/quasistatic.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
@@ -20,6 +19,7 @@
 #include <stickslip/material/hypoelastic_j2.hpp>
 #include <stickslip/material/neo_hookean.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/time_integration/quasistatic.hpp>
 
 #include <doctest/doctest.h>
 
@@ -42,7 +42,7 @@ struct Model {
   using Material = M;
   using Friction = F;
   using Enforcement = E;
-  using Inertia = Quasistatic;
+  using TimeIntegration = Quasistatic;
   using LinearSolver = GeneralSolver;
 };
 using J2 = FiniteJ2<LinearHardening>;
@@ -72,8 +72,7 @@ static_assert(numbers_per_node<Tresca> == 3 && numbers_per_node<WithPressure<Tre
 static_assert(sizeof(Tresca) == sizeof(Coulomb));
 static_assert(sizeof(ContactPair<Model<Hencky, Tresca, Penalty>>) > sizeof(ContactPair<Rough>));
 static_assert(!ContactPair<Model<Hencky, Stribeck, Penalty>>::takes_area);
-static_assert(!PointMemory<Hencky::State<Real, Planar>, 4>::stored);
-static_assert(std::is_empty_v<PointMemory<Hencky::State<Real, Planar>, 4>>);
+static_assert(!History<Hencky::State<Real, Planar>>::stored && std::is_empty_v<History<Hencky::State<Real, Planar>>>);
 static_assert(sizeof(PointGeometry<Axisymmetric, 4>) == sizeof(PointGeometry<PlaneStrain, 4>) + 4 * sizeof(Real));
 
 // In space: the gradients and the weight of a point, six components of the plastic memory and the strain.
@@ -93,8 +92,8 @@ static_assert(sizeof(Contact<Lagged>) == sizeof(Contact<Rough>));
 struct A;
 struct B;
 struct Both {
-  [[no_unique_address]] Nothing<A> a;
-  [[no_unique_address]] Nothing<B> b;
+  [[no_unique_address]] Empty<A> a;
+  [[no_unique_address]] Empty<B> b;
   Real x;
 };
 static_assert(sizeof(Both) == sizeof(Real));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <stickslip/assembly/sparse_matrix.hpp>
+#include <stickslip/dofs/sparse_matrix.hpp>
 #include <stickslip/element/gradient_operator.hpp>
 #include <stickslip/verify/system.hpp>
 
@@ -22,11 +22,10 @@ Filled fill() {
   const std::vector<std::array<Index, 4>> groups{{0, 1, 2, 3}, {7, 6, 2, 3}, {4, 5, 6, 7}, {8, 9, 0, 5}};
   std::vector<bool> constrained(10, false);
   constrained[1] = constrained[6] = true;
-  const Dofs dofs(10, constrained);
-  SparseMatrix<storage> matrix;
+  const IndexMap dofs(10, constrained);
   SparsityPattern pattern(dofs, storage);
   for (const auto& g : groups) pattern.couple(g);
-  matrix.build(pattern);
+  SparseMatrix<storage> matrix(pattern);
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(dofs.unknowns(), dofs.unknowns());
   std::mt19937 random(3);
   std::uniform_real_distribution<Real> u(-1, 1);
@@ -40,7 +39,7 @@ Filled fill() {
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
         const Index r = dofs.equation(g[std::size_t(i)]), c = dofs.equation(g[std::size_t(j)]);
-        if (r != Dofs::constrained && c != Dofs::constrained) expected(r, c) += block(i, j);
+        if (r != IndexMap::constrained && c != IndexMap::constrained) expected(r, c) += block(i, j);
       }
   }
   return {verify::dense(matrix.view()), expected, matrix.view().nonzeros()};
@@ -54,12 +53,12 @@ TEST_CASE("lower triangle and full storage hold the same matrix") {
   CHECK(2 * lower.nonzeros - full.matrix.rows() == full.nonzeros);
 }
 TEST_CASE("the view names its storage, and its rows ascend") {
-  const Dofs dofs(4, std::vector<bool>(4, false));
+  const IndexMap dofs(4, std::vector<bool>(4, false));
   SparseMatrix<Symmetry::symmetric> matrix;
   const std::array<Index, 4> group{3, 1, 0, 2};
   SparsityPattern pattern(dofs, Symmetry::symmetric);
   pattern.couple(group);
-  matrix.build(pattern);
+  matrix = decltype(matrix)(pattern);
   const SparseView view = matrix.view();
   CHECK(view.symmetry == Symmetry::symmetric);
   CHECK(view.nonzeros() == 10);
@@ -77,7 +76,7 @@ TEST_CASE("mirror copies the lower triangle into the upper one") {
     for (int j = 0; j < n; ++j)
       for (int i = j; i < n; ++i) k(i, j) = 100 * i + j + 1;
     Mat<Real, n> m = k;
-    mirror(m);
+    copy_lower_to_upper(m);
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) CHECK(m(i, j) == k(std::max(i, j), std::min(i, j)));
   };

@@ -21,10 +21,10 @@ T tensor(const Eigen::MatrixBase<Derived>& m) {
   for (const auto& [i, j] : Spatial::pairs) t(i, j) = m(i, j);
   return t;
 }
-template <class Shape>
-M3 full(const Tensor<Real, Shape>& t) {
+template <class TensorPattern>
+M3 full(const Tensor<Real, TensorPattern>& t) {
   M3 m = M3::Zero();
-  for (const auto& [i, j] : Shape::pairs) m(i, j) = t(i, j);
+  for (const auto& [i, j] : TensorPattern::pairs) m(i, j) = t(i, j);
   return m;
 }
 M3 random_matrix(std::mt19937& source) {

@@ -186,7 +186,7 @@ TEST_CASE("a step shortened by a stop does not shrink the steps after it") {
 TEST_CASE("an outcome says what, where, when and how often") {
   CHECK(Outcome{}.message() == "completed");
   CHECK(bool(Outcome{}));
-  const Outcome bad{.trouble = {Cause::element_inverted, {Place::Kind::element, 17}},
+  const Outcome bad{.failure = {FailureCause::element_inverted, {Location::Kind::element, 17}},
                     .step = 4,
                     .time = 0.25,
                     .tried_step = 0.001,
@@ -195,16 +195,20 @@ TEST_CASE("an outcome says what, where, when and how often") {
   const std::string text = bad.message();
   for (const char* part : {"step 4", "0.25", "inside out", "element 17", "6 times", "0.001"})
     CHECK(text.find(part) != std::string::npos);
-  const Outcome small{.trouble = {Cause::stalled, {}}, .step = 1, .time = 1.25e-7, .tried_step = 3e-15, .attempts = 2};
+  const Outcome small{
+      .failure = {FailureCause::stalled, {}}, .step = 1, .time = 1.25e-7, .tried_step = 3e-15, .attempts = 2};
   for (const char* part : {"after time 1.25e-07 ", "increment of 3e-15"})
     CHECK(small.message().find(part) != std::string::npos);
-  const auto placed = [](Place::Kind kind) { return Outcome{.trouble = {Cause::not_finite, {kind, 5}}}.message(); };
-  CHECK(placed(Place::Kind::node).find("(node 5)") != std::string::npos);
-  CHECK(placed(Place::Kind::contact_node).find("(contact node 5)") != std::string::npos);
-  CHECK(placed(Place::Kind::nowhere).find("(") == std::string::npos);
+  const auto placed = [](Location::Kind kind) {
+    return Outcome{.failure = {FailureCause::not_finite, {kind, 5}}}.message();
+  };
+  CHECK(placed(Location::Kind::node).find("(node 5)") != std::string::npos);
+  CHECK(placed(Location::Kind::contact_node).find("(contact node 5)") != std::string::npos);
+  CHECK(placed(Location::Kind::nowhere).find("(") == std::string::npos);
   std::vector<std::string> texts;
-  for (const Cause c : {Cause::element_inverted, Cause::not_finite, Cause::not_rigid, Cause::material_failed,
-                        Cause::singular_matrix, Cause::not_converged, Cause::stalled}) {
+  for (const FailureCause c : {FailureCause::element_inverted, FailureCause::not_finite, FailureCause::not_rigid,
+                               FailureCause::material_failed, FailureCause::singular_matrix,
+                               FailureCause::not_converged, FailureCause::stalled}) {
     const std::string one = describe(c);
     CHECK(one != "nothing");
     CHECK(one != "an unknown cause");

@@ -306,7 +306,7 @@ TEST_CASE("triangles that are wrong are named") {
   CHECK(complaint([](auto& s) { s.normals.assign(8, V3::Zero()); }) ==
         "triangulated: triangle 0 has a normal that is zero or not finite");
   CHECK(complaint([](auto& s) { s.normals.assign(8, V3::UnitZ()); }) ==
-        "triangulated: triangle 0 turns its back on the normal of its vertex 0");
+        "triangulated: triangle 0 is opposed to the normal of its vertex 0");
   CHECK(complaint([](auto&) {}, -1) == "triangulated: the crease angle must not be negative");
 }
 

@@ -78,7 +78,7 @@ class Archive {
   }
 
   /// Whether `serialize` is being called to give the object its state, so that what depends on it must follow.
-  bool gives() const { return mode_ == Mode::giving; }
+  bool loading() const { return mode_ == Mode::giving; }
 
   /// A value, or a list of a length that the object knows: of numbers, of structs of numbers, or of what has a
   /// `serialize` itself.
@@ -95,7 +95,7 @@ class Archive {
   }
   /// A list that may have another length than the object's has now.
   template <class T>
-  void any_length(const std::string& name, std::vector<T>& list) {
+  void resizable(const std::string& name, std::vector<T>& list) {
     static_assert(detail::is_its_bytes<T> && !std::is_same_v<T, bool>);
     if (mode_ == Mode::comparing) {
       (void)expected(name, sizeof(T));
@@ -106,7 +106,7 @@ class Archive {
     exchange(name, list.data(), list.size(), sizeof(T));
   }
   /// What must be the same in both, or else the state is of something else.
-  void same(const std::string& name, std::string text) {
+  void check_equal(const std::string& name, std::string text) {
     if (mode_ == Mode::taking) return exchange(name, text.data(), text.size(), 1);
     const Section& section = expected(name, 1);
     const std::string_view there(section.bytes.data(), section.bytes.size());
@@ -181,7 +181,7 @@ class Archive {
 };
 
 /// A number in as many digits as tell it from all others.
-inline std::string exact(Real x) {
+inline std::string round_trip(Real x) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof(digits), x).ptr};
 }

@@ -7,24 +7,31 @@
 
 namespace stickslip {
 
-/// How far a pass follows what the last one found: Aitken's choice for vectors (Irons & Tuck 1969; theory.md,
-/// eq. 5.30).
+/// Aitken's relaxation factor omega of a vector iteration (Irons & Tuck 1969; theory.md, eq. 5.32): the part of the
+/// last change that the next iterate takes.
 struct Relaxation {
-  Real share = 1;
+  Real omega = 1;
 
+  /// Takes the change that the last iterate asks for. Allocates at the first one only.
   void next(const Field& change) {
-    if (before_.size() == change.size()) {
-      const Field difference = change - before_;
-      const Real square = difference.squaredNorm();
-      if (square > 0) share = std::clamp(-share * before_.dot(difference) / square, Real(0.05), Real(2));
+    if (known_) {
+      const Real square = (change - before_).squaredNorm();
+      if (square > 0) omega = std::clamp(-omega * before_.dot(change - before_) / square, Real(0.05), Real(2));
     }
     before_ = change;
+    known_ = true;
   }
-  /// Goes a quarter of the last way; false when that is next to nothing.
-  bool hold_back() { return (share *= 0.25) > 1e-3; }
+  /// Forgets the changes so far; omega is 1 again.
+  void restart() {
+    omega = 1;
+    known_ = false;
+  }
+  /// Takes a quarter of the last step; false when less than a thousandth is left.
+  bool backtrack() { return (omega *= 0.25) > 1e-3; }
 
  private:
   Field before_;
+  bool known_ = false;
 };
 
 }  // namespace stickslip

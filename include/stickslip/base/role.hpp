@@ -12,7 +12,7 @@ struct Hardening {};
 struct Friction {};
 struct PressureSource {};
 struct Enforcement {};
-struct Inertia {};
+struct TimeIntegration {};
 struct Damping {};
 struct LinearSolver {};
 

@@ -8,9 +8,9 @@
 
 namespace stickslip {
 
-/// Damping in proportion to the stiffness: forces tau (G(u_{n+1}) - G(u_n)) / dt beside the internal ones G (theory.md,
-/// eq. 7.15). A vibration of angular frequency omega is damped by tau omega / 2 of critical; in plastic flow the
-/// elastic part of the strain rate alone is. For rotations that are small while the body is stressed.
+/// Stiffness-proportional damping: forces tau (G(u_{n+1}) - G(u_n)) / dt in addition to the internal forces G
+/// (theory.md, eq. 7.16). The damping ratio of a vibration of angular frequency omega is tau omega / 2; in plastic flow
+/// only the elastic part of the strain rate is damped. Valid if rotations are small while the body is stressed.
 struct StiffnessDamping {
   using Role = role::Damping;
   static constexpr bool active = true;

@@ -6,14 +6,14 @@
 
 namespace stickslip {
 
-/// The linear operator B of a point, delta F = B delta u, applied without being formed (theory.md, eq. 2.3).
+/// Gradient operator B of a quadrature point, delta F = B delta u, applied matrix-free (theory.md, eq. 2.3).
 
-/// H = B u for the nodal displacements u of the element: the displacement gradient.
+/// Displacement gradient H = B u [-] for the nodal displacements u of the element [length].
 template <class Kinematics, int nodes, class G, class S>
-Tensor<S, typename Kinematics::Shape> displacement_gradient(const PointGeometry<Kinematics, nodes, G>& point,
-                                                            const Vec<S, nodes * Kinematics::dim>& u) {
+Tensor<S, typename Kinematics::TensorPattern> displacement_gradient(const PointGeometry<Kinematics, nodes, G>& point,
+                                                                    const Vec<S, nodes * Kinematics::dim>& u) {
   constexpr int dim = Kinematics::dim;
-  Tensor<S, typename Kinematics::Shape> H;
+  Tensor<S, typename Kinematics::TensorPattern> H;
   for (int a = 0; a < nodes; ++a) {
     for (int i = 0; i < dim; ++i)
       for (int J = 0; J < dim; ++J) H(i, J) += u[a * dim + i] * point.dN_dX(a, J);
@@ -24,15 +24,15 @@ Tensor<S, typename Kinematics::Shape> displacement_gradient(const PointGeometry<
 
 /// F = I + B u.
 template <class Kinematics, int nodes, class G, class S>
-Tensor<S, typename Kinematics::Shape> deformation_gradient(const PointGeometry<Kinematics, nodes, G>& point,
-                                                           const Vec<S, nodes * Kinematics::dim>& u) {
+Tensor<S, typename Kinematics::TensorPattern> deformation_gradient(const PointGeometry<Kinematics, nodes, G>& point,
+                                                                   const Vec<S, nodes * Kinematics::dim>& u) {
   return plus_one(displacement_gradient(point, u));
 }
 
-/// B^T P: the nodal forces that do the work of P.
+/// Nodal forces B^T P, work-conjugate to u.
 template <class Kinematics, int nodes, class G, class S>
-Vec<S, nodes * Kinematics::dim> pull_back(const PointGeometry<Kinematics, nodes, G>& point,
-                                          const Tensor<S, typename Kinematics::Shape>& P) {
+Vec<S, nodes * Kinematics::dim> internal_force(const PointGeometry<Kinematics, nodes, G>& point,
+                                               const Tensor<S, typename Kinematics::TensorPattern>& P) {
   constexpr int dim = Kinematics::dim;
   Vec<S, nodes * dim> r;
   for (int a = 0; a < nodes; ++a) {
@@ -46,31 +46,31 @@ Vec<S, nodes * Kinematics::dim> pull_back(const PointGeometry<Kinematics, nodes,
   return r;
 }
 
-/// K += B^T M B; of a symmetric M the lower triangle alone.
+/// K += B^T M B; for a symmetric M only the lower triangle.
 template <Symmetry symmetry, class Kinematics, int nodes, class G, class S>
-void add_congruence(const PointGeometry<Kinematics, nodes, G>& point, const Moduli<S, typename Kinematics::Shape>& M,
-                    Mat<S, nodes * Kinematics::dim>& K) {
-  using Shape = typename Kinematics::Shape;
+void add_BtMB(const PointGeometry<Kinematics, nodes, G>& point, const Moduli<S, typename Kinematics::TensorPattern>& M,
+              Mat<S, nodes * Kinematics::dim>& K) {
+  using TensorPattern = typename Kinematics::TensorPattern;
   constexpr int dim = Kinematics::dim;
   for (int b = 0; b < nodes; ++b)
     for (int k = 0; k < dim; ++k) {
-      // Eigen's, not a loop: in space it saves a twentieth of the element.
-      Vec<S, Shape::size> column = M.col(Shape::at(k, 0)) * point.dN_dX(b, 0);
-      for (int L = 1; L < dim; ++L) column += M.col(Shape::at(k, L)) * point.dN_dX(b, L);
+      // Eigen's product, not a loop: it saves a twentieth of the element's time in three dimensions.
+      Vec<S, TensorPattern::size> column = M.col(TensorPattern::at(k, 0)) * point.dN_dX(b, 0);
+      for (int L = 1; L < dim; ++L) column += M.col(TensorPattern::at(k, L)) * point.dN_dX(b, L);
       if constexpr (Kinematics::hoop)
-        if (k == 0) column += M.col(Shape::at(2, 2)) * point.N_over_R[b];
+        if (k == 0) column += M.col(TensorPattern::at(2, 2)) * point.N_over_R[b];
       for (int a = symmetry == Symmetry::symmetric ? b : 0; a < nodes; ++a) {
         for (int i = 0; i < dim; ++i) {
-          S sum = point.dN_dX(a, 0) * column[Shape::at(i, 0)];
-          for (int J = 1; J < dim; ++J) sum += point.dN_dX(a, J) * column[Shape::at(i, J)];
+          S sum = point.dN_dX(a, 0) * column[TensorPattern::at(i, 0)];
+          for (int J = 1; J < dim; ++J) sum += point.dN_dX(a, J) * column[TensorPattern::at(i, J)];
           K(a * dim + i, b * dim + k) += sum;
         }
-        if constexpr (Kinematics::hoop) K(a * dim, b * dim + k) += point.N_over_R[a] * column[Shape::at(2, 2)];
+        if constexpr (Kinematics::hoop) K(a * dim, b * dim + k) += point.N_over_R[a] * column[TensorPattern::at(2, 2)];
       }
     }
 }
 
-/// K += left right^T; where the sum is known to be symmetric, the lower triangle alone.
+/// K += left right^T; for a symmetric sum only the lower triangle.
 template <Symmetry symmetry, int n, class S>
 void add_dyad(const Vec<S, n>& left, const Vec<S, n>& right, Mat<S, n>& K) {
   for (int j = 0; j < n; ++j)
@@ -79,7 +79,7 @@ void add_dyad(const Vec<S, n>& left, const Vec<S, n>& right, Mat<S, n>& K) {
 
 /// Copies the lower triangle of K into the upper one. Through a copy: GCC 12.2 at -O2 miscompiles the loop in place.
 template <int n, class S>
-void mirror(Mat<S, n>& K) {
+void copy_lower_to_upper(Mat<S, n>& K) {
   const Mat<S, n> lower = K;
   for (int j = 1; j < n; ++j)
     for (int i = 0; i < j; ++i) K(i, j) = lower(j, i);

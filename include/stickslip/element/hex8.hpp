@@ -7,8 +7,8 @@
 
 namespace stickslip {
 
-/// Trilinear hexahedron on [-1, 1]^3, nodes counter-clockwise from (-1, -1, -1) seen from above, the lower face first,
-/// 2 x 2 x 2 Gauss points.
+/// Trilinear hexahedron on [-1, 1]^3, nodes counter-clockwise from (-1, -1, -1) viewed from +xi_3, the lower face
+/// first, 2 x 2 x 2 Gauss points.
 struct Hex8 {
   static constexpr int dim = 3;
   static constexpr int nodes = 8;

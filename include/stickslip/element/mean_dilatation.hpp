@@ -13,7 +13,7 @@
 
 namespace stickslip {
 
-/// Q1/P0: the dilatation is the mean over the element, theta = v / V, and the material sees F_bar = (theta / J)^(1/3)
+/// Q1/P0 element: the dilatation is the element mean, theta = v/V, and the material law takes F_bar = (theta/J)^(1/3)
 /// F. Pressure and dilatation are condensed exactly: forces and tangent are the first and second derivative of one
 /// potential sum_p w_p W(F_bar_p(u)), so the tangent is symmetric whenever the material's is (theory.md, eq. 2.6-2.12;
 /// after Simo, Taylor & Pister 1985).
@@ -21,18 +21,19 @@ template <class Cell_ = Quad4>
 struct MeanDilatation {
   using Role = role::Element;
   using Cell = Cell_;
-  static constexpr bool stiff_relation = true;  ///< that of ln theta
+  static constexpr bool condensed_unknown = true;  ///< ln theta
+  static constexpr bool takes_want = true;
   static constexpr int dim = Cell::dim, nodes = Cell::nodes, points = Cell::points, dofs = nodes * dim;
 
   template <class Kinematics, class G = Real>
   using Geometry = std::array<PointGeometry<Kinematics, nodes, G>, points>;
 
-  /// The deformation gradients F_bar that the material sees at the points.
+  /// Deformation gradients F_bar that enter the material law at the quadrature points [-].
   template <class Kinematics, class G, class S>
-  static std::array<Tensor<S, typename Kinematics::Shape>, points> deformation(
+  static std::array<Tensor<S, typename Kinematics::TensorPattern>, points> deformation(
       const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry, const Vec<S, dofs>& u) {
     using std::pow;
-    std::array<Tensor<S, typename Kinematics::Shape>, points> F;
+    std::array<Tensor<S, typename Kinematics::TensorPattern>, points> F;
     S volume = S(0), reference = S(0);
     for (std::size_t p = 0; p < points; ++p) {
       F[p] = deformation_gradient(geometry[p], u);
@@ -43,21 +44,20 @@ struct MeanDilatation {
     return F;
   }
 
-  /// Nodal forces and tangent of one element for nodal displacements u. With `dilatation`, ln theta is its value and
-  /// not that of the displacements (theory.md, eq. 6.7, 6.8).
+  /// Nodal forces and tangent of one element for nodal displacements u. With `dilatation`, ln theta is the value of the
+  /// condensed unknown instead of that of u (theory.md, eq. 6.11, 6.12).
   template <class Kinematics, class G, class Material, class State, class S>
-  [[gnu::noinline]] static Cause evaluate(const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry,
-                                          const Material& material, const Vec<S, dofs>& u,
-                                          const std::array<State, points>& old, Real dt,
-                                          ElementResult<S, dofs, points, State>& out,
-                                          StiffRelation<S, dofs>* dilatation = nullptr) {
-    using Shape = typename Kinematics::Shape;
+  [[gnu::noinline]] static FailureCause evaluate(
+      const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry, const Material& material,
+      const Vec<S, dofs>& u, const std::array<State, points>& old, Real dt, ElementResult<S, dofs, points, State>& out,
+      CondensedUnknown<S, dofs>* dilatation = nullptr, Want want = Want::tangent) {
+    using TensorPattern = typename Kinematics::TensorPattern;
     constexpr Symmetry symmetry = Material::symmetry;
-    constexpr int size = Shape::size;
+    constexpr int size = TensorPattern::size;
 
-    // Volumes, and their first derivatives: div_p = delta J_p / J_p, mean_div = delta theta / theta.
-    // J - 1 and ln theta are had from the displacement gradient H: F has lost its digits.
-    std::array<Tensor<S, Shape>, points> F, F_inverse, H;
+    // Volumes, and their first derivatives: div_p = delta J_p / J_p, mean_div = delta theta / theta. J - 1 and ln theta
+    // come from the displacement gradient H, because 1 + H loses digits.
+    std::array<Tensor<S, TensorPattern>, points> F, F_inverse, H;
     std::array<S, points> J, log_J;
     std::array<Vec<S, dofs>, points> div;
     S reference = S(0), volume = S(0), gained = S(0);
@@ -67,11 +67,11 @@ struct MeanDilatation {
       F[p] = plus_one(H[p]);
       const S growth = determinant_less_one(H[p]);
       J[p] = S(1) + growth;
-      if (!(value_of(J[p]) > 0)) return Cause::element_inverted;
+      if (!(value_of(J[p]) > 0)) return FailureCause::element_inverted;
       log_J[p] = log_one_plus(growth);
       gained += growth * geometry[p].weight;
       F_inverse[p] = inverse(F[p]);
-      div[p] = pull_back(geometry[p], transpose(F_inverse[p]));
+      div[p] = internal_force(geometry[p], transpose(F_inverse[p]));
       const S v = J[p] * geometry[p].weight;
       reference += S(geometry[p].weight);
       volume += v;
@@ -81,47 +81,49 @@ struct MeanDilatation {
     S log_theta = log_one_plus(gained / reference);
     Vec<S, dofs> by_dilatation = Vec<S, dofs>::Zero();  // d force / d ln theta
     if (dilatation) {
-      dilatation->defect = log_theta - dilatation->value;
-      // A volume that the displacements cannot tell from the one asked for: else the bulk modulus makes forces of it.
-      if (std::abs(value_of(dilatation->defect)) <= roundoff(geometry[0], u)) dilatation->defect = S(0);
-      dilatation->slope = mean_div;
+      dilatation->residual = log_theta - dilatation->value;
+      // A residual below the round-off of ln theta(u) counts as zero: the bulk modulus would turn it into forces.
+      if (std::abs(value_of(dilatation->residual)) <= roundoff(geometry[0], u)) dilatation->residual = S(0);
+      dilatation->gradient = mean_div;
       log_theta = dilatation->value;
     }
 
-    // Material, forces, and what of the tangent needs no sum over the points.
+    // Material law, forces, and the part of the tangent without sums over the points.
+    const bool with_tangent = want != Want::residual;
     out.residual.setZero();
-    out.tangent.setZero();
-    std::array<Moduli<S, Shape>, points> M;
+    if (with_tangent) out.tangent.setZero();
+    std::array<Moduli<S, TensorPattern>, points> M;
     std::array<S, points> spherical;  // w_p tr(tau_p) / 3
     S spherical_sum = S(0);
     for (std::size_t p = 0; p < points; ++p) {
       const S stretch = exp_less_one((log_theta - log_J[p]) / Real(3));
       const S factor = S(1) + stretch;
-      Deformation<S, Shape> bar;
-      Tensor<S, Shape>& F_bar = bar.F;
+      Deformation<S, TensorPattern> bar;
+      Tensor<S, TensorPattern>& F_bar = bar.F;
       F_bar.v = scaled(F[p].v, factor);
       bar.H.v = scaled(H[p].v, factor);
       for (int i = 0; i < 3; ++i) bar.H(i, i) += stretch;
       bar.log_J = log_theta;
       const auto answer = answer_of(material, bar, old[p], dt);
-      if (answer.cause != Cause::none) return answer.cause;
+      if (answer.cause != FailureCause::none) return answer.cause;
       out.states[p] = answer.state;
 
       const S weight = S(geometry[p].weight);
       const S trace_tau = contraction(answer.P.v, F_bar.v) * weight;
       Vec<S, dofs> da = scaled(mean_div, S(Real(1) / 3));  // delta ln factor
       add(da, div[p], S(Real(-1) / 3));
-      const Vec<S, dofs> stress_force = scaled<S>(pull_back(geometry[p], answer.P), weight * factor);
+      const Vec<S, dofs> stress_force = scaled<S>(internal_force(geometry[p], answer.P), weight * factor);
       add(out.residual, stress_force);
       add(out.residual, da, trace_tau);
+      if (!with_tangent && !dilatation) continue;
 
       const S squared = weight * factor * factor;
-      Tensor<S, Shape> moduli_F;
+      Tensor<S, TensorPattern> moduli_F;
       moduli_F.v = product(answer.dP_dF, F[p].v);
       const S half_stretch = S(0.5) * (squared * contraction(F[p].v, moduli_F.v) + trace_tau);
-      const auto with_da = [&](const Tensor<S, Shape>& moduli_times_F) {
+      const auto with_da = [&](const Tensor<S, TensorPattern>& moduli_times_F) {
         Vec<S, dofs> sum = stress_force;
-        add(sum, pull_back(geometry[p], moduli_times_F), squared);
+        add(sum, internal_force(geometry[p], moduli_times_F), squared);
         add(sum, da, half_stretch);
         return sum;
       };
@@ -130,11 +132,12 @@ struct MeanDilatation {
         add(by_dilatation, left, S(Real(1) / 3));
         add(by_dilatation, da, S(half_stretch * (Real(1) / 3)));
       }
+      if (!with_tangent) continue;
       add_dyad<symmetry>(left, da, out.tangent);
       if constexpr (symmetry == Symmetry::symmetric) {
         add_dyad<symmetry>(da, left, out.tangent);
       } else {
-        Tensor<S, Shape> F_moduli;
+        Tensor<S, TensorPattern> F_moduli;
         F_moduli.v = transposed_product(answer.dP_dF, F[p].v);
         add_dyad<symmetry>(da, with_da(F_moduli), out.tangent);
       }
@@ -143,29 +146,31 @@ struct MeanDilatation {
       spherical_sum += spherical[p];
     }
 
-    // The second derivatives of ln theta and ln J.
+    if (dilatation) dilatation->force = scaled(by_dilatation, dilatation->residual);
+    if (!with_tangent) return FailureCause::none;
+
+    // Second derivatives of ln theta and ln J.
     for (std::size_t p = 0; p < points; ++p) {
       const S share = J[p] * geometry[p].weight / volume * spherical_sum;
       const S swirl = spherical[p] - share;
       for (int a = 0; a < size; ++a) {
-        const auto [i, I] = Shape::pairs[std::size_t(a)];
+        const auto [i, I] = TensorPattern::pairs[std::size_t(a)];
         for (int b = 0; b < size; ++b) {
-          const auto [k, K] = Shape::pairs[std::size_t(b)];
-          if (Shape::couples(I, k) && Shape::couples(K, i))
+          const auto [k, K] = TensorPattern::pairs[std::size_t(b)];
+          if (TensorPattern::couples(I, k) && TensorPattern::couples(K, i))
             M[p](a, b) += swirl * F_inverse[p](I, k) * F_inverse[p](K, i);
         }
       }
-      add_congruence<symmetry>(geometry[p], M[p], out.tangent);
+      add_BtMB<symmetry>(geometry[p], M[p], out.tangent);
       add_dyad<symmetry>(scaled(div[p], share), div[p], out.tangent);
     }
     add_dyad<symmetry>(scaled(mean_div, S(-spherical_sum)), mean_div, out.tangent);
-    if constexpr (symmetry == Symmetry::symmetric) mirror(out.tangent);
-    if (dilatation) dilatation->excess = scaled(by_dilatation, dilatation->defect);
-    return Cause::none;
+    if constexpr (symmetry == Symmetry::symmetric) copy_lower_to_upper(out.tangent);
+    return FailureCause::none;
   }
 
  private:
-  // Of ln theta: the displacement gradient is a sum of products of displacements and shape gradients.
+  // Round-off of ln theta(u): the displacement gradient sums products of displacements and shape gradients.
   template <class Kinematics, class G, class S>
   static Real roundoff(const PointGeometry<Kinematics, nodes, G>& point, const Vec<S, dofs>& u) {
     Real moved = 0, gradient = 0;

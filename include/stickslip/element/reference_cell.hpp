@@ -14,7 +14,7 @@ struct QuadraturePoint {
   Real weight;
 };
 
-/// Gauss points of the rule with two in each direction on [-1, 1]^dim, one towards each corner.
+/// Two-point Gauss rule in each direction on [-1, 1]^dim; point a lies towards corner a.
 template <std::size_t dim, std::size_t points>
 std::array<QuadraturePoint<static_cast<int>(dim)>, points> two_point_gauss(
     const std::array<std::array<Real, dim>, points>& corner) {

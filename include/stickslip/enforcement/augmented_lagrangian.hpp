@@ -6,19 +6,19 @@
 
 namespace stickslip {
 
-/// Augmented Lagrangian method, by Uzawa's algorithm (Simo & Laursen 1992; theory.md, eq. 4.16-4.18): each step is
-/// passed over several times, the pressures and friction forces of a pass being the multipliers of the next, until
-/// neither a pressed node's gap nor a sticking one's reversible slide is left to speak of.
+/// Augmented Lagrangian method by Uzawa's algorithm (Simo & Laursen 1992; theory.md, eq. 4.16-4.18). Each step takes
+/// several outer iterations: the pressures and friction forces of one are the multipliers of the next, until the gaps
+/// of pressed nodes and the elastic slips of sticking nodes are within tolerance.
 ///
-/// Nothing needs tuning: the stiffnesses are in parts of the body's own and grow where the passes settle slowly, and
-/// the passes stop by MarchOptions::pass_tolerance. With LagIterated friction every pass has a symmetric tangent.
+/// Penalties are relative to the body's stiffness and grow where the outer iterations, which end by
+/// MarchOptions::outer_tolerance, converge slowly: no tuning. With LagIterated friction every tangent is symmetric.
 struct AugmentedLagrangian {
   using Role = role::Enforcement;
   static constexpr bool active = true;
   static constexpr Symmetry symmetry = Symmetry::symmetric;
 
-  Real normal = 10;     ///< [-], or as `per` says
-  Real tangential = 1;  ///< of sticking [-], or as `per` says
+  Real normal = 10;     ///< normal penalty [-], or as `per` selects
+  Real tangential = 1;  ///< penalty of sticking [-], or as `per` selects
   PenaltyPer per = PenaltyPer::stiffness;
 
   template <class S>
@@ -32,12 +32,12 @@ struct AugmentedLagrangian {
     return {gap * (normal * weight) - memory.pressure, S(normal * weight)};
   }
   Real stick_stiffness(Real weight) const { return tangential * weight; }
-  /// The multiplier that a pressure leaves.
+  /// Multiplier after an augmentation at `pressure` [force].
   template <class S>
   Memory<S> augmented(const S& pressure) const {
     return {pressure};
   }
-  /// Energy stored in a penetration that the passes have left.
+  /// Energy stored in the penetration that the outer iterations leave.
   Real energy(Real gap, Real weight) const { return 0.5 * normal * weight * gap * gap; }
 
   void validate() const {

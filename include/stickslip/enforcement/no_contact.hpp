@@ -5,7 +5,7 @@
 
 namespace stickslip {
 
-/// No tools in the scene: no contact memory, no contact loop.
+/// No tools in the scene: no contact memory, no contact forces.
 struct NoContact {
   using Role = role::Enforcement;
   static constexpr bool active = false;

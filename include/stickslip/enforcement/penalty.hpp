@@ -6,7 +6,7 @@
 
 namespace stickslip {
 
-/// Penalty method: t_N = eps_C g in penetration (paper, eq. 5), eps_F the stiffness of sticking (eq. 12).
+/// Penalty method: t_N = eps_C g in penetration (paper, eq. 5), eps_F is the tangential penalty in stick (eq. 12).
 struct Penalty {
   using Role = role::Enforcement;
   static constexpr bool active = true;
@@ -19,7 +19,7 @@ struct Penalty {
   template <class S>
   struct Memory {};
 
-  /// t_N (theory.md, eq. 4.4). At a positive gap, which an iteration may have, its smooth continuation.
+  /// Normal force t_N [force] (theory.md, eq. 4.4), continued smoothly to the positive gaps of iterates.
   template <class S>
   NormalForce<S> normal_force(const S& gap, Real weight, const Memory<S>&) const {
     return {gap * (normal * weight), S(normal * weight)};

@@ -9,9 +9,9 @@
 
 namespace stickslip {
 
-/// Coulomb friction on a tool that was machined in one direction: an elliptic bound with one coefficient along that
-/// direction and another across it, and sliding along its normal, which dissipates the most (Michalowski & Mroz 1978;
-/// theory.md, eq. 5.26). Where the surface turns away from the direction, the bound becomes that of mu_across.
+/// Coulomb friction on a tool machined in one direction: an elliptic slip bound with one coefficient along that
+/// direction and another across it, and slip along the normal of the ellipse, which dissipates the most (Michalowski &
+/// Mroz 1978; theory.md, eq. 5.28). On a surface normal to the direction the slip bound is that of mu_across.
 struct AnisotropicCoulomb {
   using Role = role::Friction;
   using Law = AnisotropicCoulomb;
@@ -25,10 +25,10 @@ struct AnisotropicCoulomb {
   Vec<Real, 3> direction = Vec<Real, 3>::UnitX();  ///< in the tool's frame, of any length
 
   template <class S>
-  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+  FrictionBound<S> bound(const InterfaceState<S>& at) const {
     return {at.pressure * mu_across, S(mu_across), S(0)};
   }
-  /// M of sqrt(t . M t) = mu_across p.
+  /// M [-] of the slip bound sqrt(t . M t) = mu_across p.
   Mat<Real, 3> metric() const {
     const Vec<Real, 3> a = direction.normalized();
     const Real ratio = mu_across / mu_along;

@@ -8,8 +8,8 @@
 
 namespace stickslip {
 
-/// Coulomb's bound up to a shear stress that the interface bears at most, such as the softer body's shear yield stress:
-/// min(mu p, tau_max A) (Orowan; theory.md, eq. 5.19).
+/// Coulomb's slip bound, capped by the largest shear stress of the interface, such as the softer body's shear yield
+/// stress: min(mu p, tau_max A) (Orowan; theory.md, eq. 5.21).
 struct CappedCoulomb {
   using Role = role::Friction;
   using Law = CappedCoulomb;
@@ -23,7 +23,7 @@ struct CappedCoulomb {
   Real tau_max = 0;  ///< largest shear stress, per reference area [force / length^2]
 
   template <class S>
-  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+  FrictionBound<S> bound(const InterfaceState<S>& at) const {
     const S sliding = at.pressure * mu;
     const Real cap = tau_max * at.area;
     const bool capped = value_of(sliding) > cap;

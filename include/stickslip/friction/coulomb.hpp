@@ -6,7 +6,7 @@
 
 namespace stickslip {
 
-/// Coulomb's bound mu p (paper, eq. 10).
+/// Coulomb's slip bound mu p (paper, eq. 10).
 struct Coulomb {
   using Role = role::Friction;
   using Law = Coulomb;
@@ -18,16 +18,16 @@ struct Coulomb {
   Real mu = 0;  ///< friction coefficient [-]
 
   template <class S>
-  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+  FrictionBound<S> bound(const InterfaceState<S>& at) const {
     return {at.pressure * mu, S(mu), S(0)};
   }
   void validate() const { require::not_negative(mu, "Coulomb friction: the coefficient mu"); }
 };
 
-/// The paper's law: Coulomb's bound at the last converged normal force.
+/// The paper's law: Coulomb's slip bound at the last converged normal force.
 using QuasiCoulomb = Quasi<Coulomb>;
 
-/// Coulomb's bound at the normal force extrapolated from the last two converged ones.
+/// Coulomb's slip bound at the normal force extrapolated from the last two converged ones.
 using ExtrapolatedCoulomb = WithPressure<Coulomb, Extrapolated>;
 
 }  // namespace stickslip

@@ -5,7 +5,7 @@
 
 namespace stickslip {
 
-/// No friction: no bound, no memory, no tangential loop.
+/// No friction: no slip bound, no memory, no tangential forces.
 struct Frictionless {
   using Role = role::Friction;
   static constexpr bool active = false;

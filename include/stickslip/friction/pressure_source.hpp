@@ -5,7 +5,7 @@
 
 namespace stickslip {
 
-/// The normal force of the iterate: exact, and the tangent of a sliding node is not symmetric.
+/// Normal force of the current iterate: the slip bound is exact, the tangent of a slipping node not symmetric.
 struct CurrentPressure {
   using Role = role::PressureSource;
   static constexpr bool follows_current = true;
@@ -21,18 +21,18 @@ struct CurrentPressure {
   }
 };
 
-/// The normal force of the iterate in the residual, and the symmetric tangent of one that stays as it is: the exact
-/// answer by symmetric systems, with what they lack found out by differences of the residual (theory.md, section 5.9).
+/// Normal force of the current iterate in the residual, but the symmetric tangent of a constant normal force: exact
+/// results by symmetric systems, with the missing coupling from differences of the residual (theory.md, section 5.9).
 struct Symmetrised : CurrentPressure {
   static constexpr bool symmetrised = true;
 };
 
-/// The normal force at the last converged step (paper, eq. 20 and 21): a symmetric tangent, and a bound that lags one
-/// step behind. First contacts that bear much take the step's own pressure (theory.md, eq. 5.33).
+/// Normal force at the last converged step (paper, eq. 20 and 21): the tangent is symmetric, and the slip bound lags by
+/// one step. First contacts of large normal force take that of the current step (theory.md, eq. 5.11).
 struct LastConverged {
   using Role = role::PressureSource;
   static constexpr bool follows_current = false;
-  static constexpr Real stable_below = 1;  ///< kappa of theory.md, eq. 5.14
+  static constexpr Real critical_feedback = 1;  ///< kappa of theory.md, eq. 5.15
   template <class S>
   struct Memory {
     S pressure = S(0);  ///< [force]
@@ -46,19 +46,19 @@ struct LastConverged {
     return {current};
   }
   template <class S>
-  static Memory<S> seeing(const S& pressure) {
+  static Memory<S> from_pressure(const S& pressure) {
     return {pressure};
   }
 };
 
-/// The normal force that the last two converged steps foretell, linear in time and between zero and twice the last one
-/// (theory.md, eq. 5.24): a symmetric tangent, and a bound that lags at second order in the step. A node that one step
-/// alone knows of has no trend: after its first contact the last converged force is taken.
+/// Normal force extrapolated linearly in time from the last two converged steps, between zero and twice the last value
+/// (theory.md, eq. 5.26): the tangent is symmetric, and the lag of the slip bound is of second order in the step size.
+/// In the step after a first contact there is no trend yet: the last converged force is taken.
 struct Extrapolated {
   using Role = role::PressureSource;
   static constexpr bool follows_current = false;
-  static constexpr Real stable_below = 1.0 / 3;  ///< kappa of theory.md, eq. 5.15
-  static constexpr int lag_order = 2;            ///< of the bound's error in the step
+  static constexpr Real critical_feedback = 1.0 / 3;  ///< kappa of theory.md, eq. 5.17
+  static constexpr int lag_order = 2;                 ///< order of the slip bound's error in the step size
   template <class S>
   struct Memory {
     S pressure = S(0);  ///< [force]
@@ -75,19 +75,19 @@ struct Extrapolated {
     return {current, known ? S((current - memory.pressure) / dt) : S(0)};
   }
   template <class S>
-  static Memory<S> seeing(const S& pressure) {
+  static Memory<S> from_pressure(const S& pressure) {
     return {pressure, S(0)};
   }
 };
 
-/// The normal force of the last pass over the step: a symmetric tangent in each pass, and the current pressure's answer
-/// when the passes have converged (theory.md, section 5.8). With multipliers (AugmentedLagrangian) it is the multiplier
-/// of the current augmentation: the symmetric method of Simo & Laursen (1992).
+/// Normal force of the last outer iteration: the tangent is symmetric in each of them, and the converged solution is
+/// that of the current pressure (theory.md, section 5.8). With AugmentedLagrangian it is the multiplier of the current
+/// augmentation: the symmetric method of Simo & Laursen (1992).
 struct LagIterated : LastConverged {
   static constexpr bool iterated = true;
 };
 
-/// Any friction law with its pressure taken from the last converged step.
+/// Any friction law at the pressure of the last converged step.
 template <class Law>
 using Quasi = WithPressure<Law, LastConverged>;
 

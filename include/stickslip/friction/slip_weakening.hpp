@@ -9,8 +9,8 @@
 
 namespace stickslip {
 
-/// Coulomb's bound with a coefficient that falls as the node slides, for good:
-/// mu(S) = mu_dynamic + (mu_static - mu_dynamic) exp(-S / length) (theory.md, eq. 5.21).
+/// Coulomb's slip bound with a coefficient that falls with the accumulated slip S and never recovers:
+/// mu(S) = mu_dynamic + (mu_static - mu_dynamic) exp(-S / length) (theory.md, eq. 5.23).
 struct SlipWeakeningCoulomb {
   using Role = role::Friction;
   using Law = SlipWeakeningCoulomb;
@@ -19,14 +19,14 @@ struct SlipWeakeningCoulomb {
   static constexpr bool depends_on_pressure = true;
   static constexpr bool depends_on_slip = true;
 
-  Real mu_static = 0;   ///< coefficient before any slide [-]
-  Real mu_dynamic = 0;  ///< coefficient after a long slide [-]
-  Real length = 0;      ///< slid distance over which the difference falls to 1/e [length]
+  Real mu_static = 0;   ///< coefficient without slip [-]
+  Real mu_dynamic = 0;  ///< limit for large slip [-]
+  Real length = 0;      ///< accumulated slip over which the difference falls to 1/e [length]
 
   template <class S>
-  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+  FrictionBound<S> bound(const InterfaceState<S>& at) const {
     using std::exp;
-    const S fading = exp(at.slip * (-1 / length)) * (mu_static - mu_dynamic);
+    const S fading = exp(at.accumulated_slip * (-1 / length)) * (mu_static - mu_dynamic);
     const S mu = fading + mu_dynamic;
     return {at.pressure * mu, mu, at.pressure * fading * (-1 / length)};
   }

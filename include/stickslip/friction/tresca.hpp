@@ -6,8 +6,8 @@
 
 namespace stickslip {
 
-/// Tresca's bound tau A: a shear stress that needs contact, whatever the pressure (theory.md, eq. 5.20). Its tangent is
-/// symmetric, and no pressure source makes a difference.
+/// Tresca's slip bound tau A: a constant shear stress in contact, independent of the pressure (theory.md, eq. 5.22).
+/// The tangent is symmetric, and the pressure source has no effect.
 struct Tresca {
   using Role = role::Friction;
   using Law = Tresca;
@@ -20,7 +20,7 @@ struct Tresca {
   Real tau = 0;  ///< shear stress, per reference area [force / length^2]
 
   template <class S>
-  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+  FrictionBound<S> bound(const InterfaceState<S>& at) const {
     return {S(tau * at.area), S(0), S(0)};
   }
   void validate() const { require::not_negative(tau, "Tresca friction: the shear stress tau"); }

@@ -11,8 +11,8 @@
 
 namespace stickslip::rigid {
 
-/// One tool of several kinds: for scenes whose contacts differ in the kind of tool. Made of any of them; answers as the
-/// one that it holds. The choice is a switch over the kinds; no function is virtual.
+/// A tool of one of several types, for scenes with different tools. Constructed from any of them; calls are forwarded
+/// to the held tool by std::visit, without virtual functions.
 template <class... Tools>
 class AnyOf {
  public:
@@ -26,13 +26,13 @@ class AnyOf {
     return std::visit([](const auto& tool) { return tool.empty(); }, tool_);
   }
 
-  /// The surface seen from x, a point in the tool's frame.
+  /// Signed distance at x and its derivatives, in the tool's frame.
   template <class S>
   Distance<S, 3> distance(const Vec<S, 3>& x) const {
     return std::visit([&](const auto& tool) -> Distance<S, 3> { return tool.distance(x); }, tool_);
   }
 
-  /// Smallest size that nodes should resolve; infinite for a tool that does not tell [length].
+  /// Smallest feature size that nodes should resolve [length]; infinite for a tool without `smallest_size`.
   Real smallest_size() const {
     return std::visit(
         [](const auto& tool) {
@@ -44,7 +44,7 @@ class AnyOf {
         tool_);
   }
 
-  /// The tool itself, if it is of the kind `Tool`; null if not.
+  /// The held tool if it is a `Tool`, else null.
   template <class Tool>
   const Tool* as() const {
     return std::get_if<Tool>(&tool_);

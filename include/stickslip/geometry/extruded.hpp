@@ -10,13 +10,13 @@
 
 namespace stickslip::rigid {
 
-/// Rigid cylindrical surface: a Profile in the plane of two directions, swept endlessly across it (theory.md,
-/// eq. 4.9). Drawbeads, rollers, the tools of plane strain in space. Seen against the sweep first x second the body is
-/// on the left of the section's walk.
+/// Rigid cylindrical surface: a Profile in the plane of two directions, swept infinitely along the normal of the plane
+/// (theory.md, eq. 4.9): drawbeads, rollers, plane-strain tools in three dimensions. Viewed against the sweep direction
+/// first x second the body is on the left of the section.
 class Extruded {
  public:
-  /// The section's coordinates count from `origin` along `first` and `second`, which must be at a right angle and need
-  /// not be unit vectors. Throws std::invalid_argument naming what is wrong.
+  /// The section's coordinates are measured from `origin` [length] along `first` and `second`, which must be orthogonal
+  /// and may have any length. Throws std::invalid_argument, naming the wrong argument.
   Extruded(Profile section, const Vec<Real, 3>& origin, const Vec<Real, 3>& first, const Vec<Real, 3>& second)
       : section_(std::move(section)), origin_(origin), first_(detail::unit(first, "extruded: the first direction")) {
     const Vec<Real, 3> v = detail::unit(second, "extruded: the second direction");
@@ -28,15 +28,15 @@ class Extruded {
 
   bool empty() const { return section_.empty(); }
   const Profile& section() const { return section_; }
-  /// Smallest size that nodes should resolve: the section's [length].
+  /// Smallest feature size that nodes should resolve [length]: that of the section.
   Real smallest_size() const { return section_.smallest_size(); }
 
-  /// The surface seen from x, a point in the tool's frame.
+  /// Signed distance at x and its derivatives, in the tool's frame; a NaN gap for an x that is not finite.
   template <class S>
   Distance<S, 3> distance(const Vec<S, 3>& x) const {
     const Vec<S, 3> v(x[0] - origin_[0], x[1] - origin_[1], x[2] - origin_[2]);
-    const Vec<S, 3> e = detail::lifted<S>(first_), f = detail::lifted<S>(second_);
-    if (!is_finite(detail::plain(v))) return detail::nowhere<S>();
+    const Vec<S, 3> e = detail::promote<S>(first_), f = detail::promote<S>(second_);
+    if (!is_finite(detail::values(v))) return detail::nowhere<S>();
     const auto at = section_.closest(Vec<S, 2>(detail::dot(e, v), detail::dot(f, v)));
     Distance<S, 3> out;
     out.gap = at.gap;

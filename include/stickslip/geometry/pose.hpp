@@ -11,15 +11,15 @@
 
 namespace stickslip::rigid {
 
-/// Where a tool is: x = rotation * x_tool + translation.
+/// Pose of a tool: x = rotation * x_tool + translation [length].
 template <int dim>
 struct Pose {
   Mat<Real, dim> rotation = Mat<Real, dim>::Identity();
   Vec<Real, dim> translation = Vec<Real, dim>::Zero();
 
-  /// A point of space in the tool's frame.
+  /// Maps a point of space to the tool's frame.
   Vec<Real, dim> on_tool(const Vec<Real, dim>& x) const { return transposed_product(rotation, minus(x, translation)); }
-  /// A point of the tool's frame in space.
+  /// Maps a point of the tool's frame to space.
   Vec<Real, dim> in_space(const Vec<Real, dim>& x) const {
     Vec<Real, dim> turned = product(rotation, x);
     add(turned, translation);
@@ -27,7 +27,7 @@ struct Pose {
   }
 
   bool finite() const { return is_finite(rotation) && is_finite(translation); }
-  /// Whether it keeps distances, to a millionth, and does not mirror.
+  /// Whether `rotation` is a proper orthogonal matrix to 1e-6.
   bool rigid() const {
     const Mat<Real, dim>& Q = rotation;
     Real volume = 0;
@@ -46,7 +46,7 @@ struct Pose {
   }
 };
 
-/// Turn by `angle` [rad, counter-clockwise] about `centre`, then `translation`.
+/// Rotation by `angle` [rad, counter-clockwise] about `centre`, then `translation` [length].
 inline Pose<2> turned(Real angle, const Vec<Real, 2>& centre, const Vec<Real, 2>& translation = Vec<Real, 2>::Zero()) {
   Pose<2> pose;
   pose.rotation << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
@@ -55,11 +55,11 @@ inline Pose<2> turned(Real angle, const Vec<Real, 2>& centre, const Vec<Real, 2>
   return pose;
 }
 
-/// A tool's pose over time. Made of any function of time that gives a translation or a Pose; at rest by default.
+/// A tool's pose over time, from a function of time that returns a translation or a Pose; at rest by default.
 template <int dim>
 class Motion {
  public:
-  Motion() noexcept {}  // not defaulted: GCC 12 breaks down on the member initialisers of an aggregate that holds one
+  Motion() noexcept {}  // not defaulted: GCC 12 fails on the member initialisers of an aggregate that holds a Motion
   template <class F>
     requires std::invocable<const F&, Real> &&
         (!std::same_as<F, Motion>)Motion(F f) {  // NOLINT(google-explicit-constructor): a lambda is the usual argument

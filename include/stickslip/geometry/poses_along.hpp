@@ -11,21 +11,21 @@
 
 namespace stickslip::rigid {
 
-/// The poses of a tool at times along a step (theory.md, section 4.7): five where it stays, or moves on straight; where
-/// it turns, or moves to and fro, so many that it turns by no more than `most` from one to the next. The times are at
-/// odd parts of the step, for whole turns between equal ones would not be seen.
+/// Poses of a tool at times within a step (theory.md, section 4.7): five for a tool at rest or in straight translation;
+/// for one that rotates or moves back and forth, enough to limit the rotation between neighbouring poses to `most`. The
+/// times are at irrational fractions of the step, because equal intervals would miss whole turns.
 template <int dim>
 class PosesAlong {
  public:
-  /// Largest turn from one pose to the next [rad].
+  /// Largest rotation from one pose to the next [rad].
   static constexpr Real most = 0.1;
 
   struct At {
-    Real share = 0;  ///< of the step that has passed [-]
+    Real share = 0;  ///< elapsed fraction of the step [-]
     Pose<dim> pose;
   };
 
-  /// Room for the poses of a tool that does not turn.
+  /// Reserves memory for the poses of a tool that does not rotate.
   PosesAlong() { poses_.reserve(5); }
 
   void take(const Motion<dim>& motion, Real begin, Real end) {
@@ -42,7 +42,7 @@ class PosesAlong {
       way += distance(poses_[i - 1], poses_[i]);
       rigid = rigid && poses_[i].pose.rigid() && poses_[i].pose.finite();
     }
-    // What is no pose is told of where the tool is looked at.
+    // Poses that are not rigid are reported by the contact.
     turns_ = rigid && (turn > 1e-12 || way > straight * distance(poses_.front(), poses_.back()));
     if (!turns_) return;
     const std::array<At, 5> coarse{poses_[0], poses_[1], poses_[2], poses_[3], poses_[4]};
@@ -51,7 +51,7 @@ class PosesAlong {
     for (std::size_t i = 1; i < coarse.size(); ++i) refine(motion, coarse[i - 1], coarse[i], 1e-3 * way, 0);
   }
 
-  /// Takes those of equal parts of the step instead, where a tool moves on straight and turns under a node even so.
+  /// Takes poses at equal intervals instead: a tool in translation may turn its normal under a slipping node.
   void divide(const Motion<dim>& motion, int parts) {
     poses_.clear();
     for (int i = 0; i <= parts; ++i) poses_.push_back(at(motion, Real(i) / parts));
@@ -60,32 +60,31 @@ class PosesAlong {
   /// Whether the poses are those of the step from `begin` to `end`.
   bool are_of(Real begin, Real end) const { return !poses_.empty() && begin == begin_ && end == end_; }
   Real end() const { return end_; }
-  /// Whether the tool turns, or moves to and fro: the way of a point on it is more than that from its beginning to its
-  /// end.
+  /// Whether the tool rotates or moves back and forth, so that the paths of its points are longer than their chords.
   bool turns() const { return turns_; }
-  /// False if more poses than there may be would have to be looked at.
+  /// False if the motion needs more poses than the limit.
   bool resolved() const { return resolved_; }
 
   std::size_t size() const { return poses_.size(); }
   const At& operator[](std::size_t i) const { return poses_[i]; }
 
  private:
-  static constexpr Real straight = 1.02;  // way over its chord
+  static constexpr Real straight = 1.02;  // path length over chord [-]
   static constexpr int deepest = 6;
   static constexpr std::size_t largest = 4096;
 
   At at(const Motion<dim>& motion, Real share) const {
     return {share, motion.at(share < 1 ? begin_ + share * (end_ - begin_) : end_)};
   }
-  // Of the turn from a to b, at most pi.
+  // Rotation angle from a to b, at most pi [rad].
   static Real angle(const At& a, const At& b) {
     const Real sine = (b.pose.rotation - a.pose.rotation).norm() / std::sqrt(8.0);
     return 2 * std::asin(std::min(1.0, sine));
   }
   static Real distance(const At& a, const At& b) { return (b.pose.translation - a.pose.translation).norm(); }
 
-  // Appends the poses after a up to b. Two poses between them tell whether the tool goes straight from a to b: their
-  // shares are irrational, so that no rate of turning hides from both. A way to and fro of less than `finest` may.
+  // Appends the poses after a up to b. Two intermediate poses test whether the motion from a to b is straight: their
+  // fractions are irrational, so that no rotation rate escapes both. An excursion shorter than `finest` may escape.
   void refine(const Motion<dim>& motion, const At& a, const At& b, Real finest, int depth) {
     const Real length = b.share - a.share;
     const At c = at(motion, a.share + 0.3819660112501051 * length),
@@ -98,7 +97,7 @@ class PosesAlong {
     }
     const bool finite = std::isfinite(turn) && std::isfinite(way);
     if (!finite || depth == deepest || poses_.size() >= largest) {
-      // A jump is steady, however short the interval.
+      // A jump stays steady in the shortest interval and counts as resolved.
       resolved_ = resolved_ && (!finite || (steady && depth == deepest));
       poses_.push_back(b);
       return;

@@ -13,35 +13,35 @@
 
 namespace stickslip::rigid {
 
-/// Rigid tool surface of the plane: a chain of straight lines and circular arcs, walked so that **the body is on the
+/// Rigid tool surface in the plane: a chain of straight lines and circular arcs, oriented so that **the body is on the
 /// left** and the tool's material on the right. The outward normal points left. In axisymmetry it is the meridian of a
-/// surface of revolution. Start one with `path`, `line`, `disc` or `rounded`.
+/// surface of revolution. Create one with `path`, `line`, `disc` or `rounded`.
 ///
-/// The closest point is taken over the whole chain and is continuous over joints with a common tangent. At a sharp
-/// corner that stands out towards the body the gap is positive all around; inside a re-entrant one it is measured to
-/// the corner. Past an open end there is no contact.
+/// The closest point is searched over the whole chain and is continuous across joints with a common tangent. At a sharp
+/// corner that protrudes towards the body the gap is positive all around; at a re-entrant corner penetration is the
+/// distance to the corner. Past an open end there is no contact.
 class Profile {
  public:
-  /// A chain that begins at `start` in the direction `heading`.
+  /// Begins at `start` [length] in the direction `heading`. Throws std::invalid_argument if one of them is invalid.
   Profile(const Vec<Real, 2>& start, const Vec<Real, 2>& heading) : end_(start), heading_(heading) {
     if (!(heading.norm() > 0) || !is_finite(heading) || !is_finite(start))
       throw std::invalid_argument("profile: the start must be finite and the heading not zero");
     heading_.normalize();
   }
 
-  /// Goes straight on.
+  /// Appends a straight line of length `length`.
   Profile& straight(Real length) { return add(length, 0); }
-  /// Turns right by `angle` [rad] on an arc: convex towards the body, the fillet of a die.
+  /// Appends an arc that turns right by `angle` [rad]: convex towards the body, such as the fillet of a die.
   Profile& right(Real radius, Real angle) { return add_arc(radius, angle, +1); }
-  /// Turns left by `angle` [rad] on an arc: concave towards the body.
+  /// Appends an arc that turns left by `angle` [rad]: concave towards the body.
   Profile& left(Real radius, Real angle) { return add_arc(radius, angle, -1); }
-  /// Turns on the spot by `angle` [rad], positive to the left: a sharp corner.
+  /// Turns the heading by `angle` [rad], positive to the left: a sharp corner.
   Profile& corner(Real angle) {
     if (!std::isfinite(angle)) throw std::invalid_argument("profile: a corner's angle must be finite");
     heading_ = rotate(heading_, std::cos(angle), std::sin(angle));
     return *this;
   }
-  /// Lets the first and the last piece, both straight, run on for ever.
+  /// Extends the first and the last piece to infinity; throws std::invalid_argument unless both are straight.
   Profile& endless() {
     if (pieces_.empty() || pieces_.front().curvature != 0 || pieces_.back().curvature != 0)
       throw std::invalid_argument("profile: only straight ends can be endless");
@@ -49,7 +49,7 @@ class Profile {
     pieces_.back().high = infinity;
     return *this;
   }
-  /// Joins the end to the start.
+  /// Joins the end to the start; throws std::invalid_argument unless they coincide.
   Profile& close() {
     if (pieces_.empty() || (end_ - position(pieces_.front(), 0)).norm() > 1e-9 * length_)
       throw std::invalid_argument("profile: the chain does not end where it starts");
@@ -62,7 +62,7 @@ class Profile {
   bool empty() const { return pieces_.empty(); }
   Real length() const { return length_; }
 
-  /// Difference of two surface coordinates, the short way round on a closed chain.
+  /// Difference of two surface coordinates [length], on a closed chain the one of smaller magnitude.
   template <class S>
   S difference(const S& to, const S& from) const {
     S d = to - from;
@@ -70,7 +70,7 @@ class Profile {
     return d;
   }
 
-  /// The chain seen from x, a point in the tool's frame.
+  /// Closest point to x, in the tool's frame; a NaN gap for an empty chain or an x that is not a number.
   template <class S>
   SurfacePoint<S, 2> closest(const Vec<S, 2>& x) const {
     const Vec<Real, 2> plain(value_of(x[0]), value_of(x[1]));
@@ -98,10 +98,9 @@ class Profile {
     return best->curvature == 0 ? from_line(*best, x) : from_arc(*best, x);
   }
 
-  /// Smallest size of the tool that nodes should resolve [length]: the least radius of an arc that is convex towards
-  /// the body, the least thickness of a wall that ends in two sharp corners, the width of a closed chain, the reach of
-  /// one with two ends. Sharp corners have no size, and re-entrant arcs are not asked for. Infinite for an endless
-  /// line.
+  /// Smallest feature size that nodes should resolve [length]: the smallest radius of an arc that is convex towards the
+  /// body, the smallest thickness of a wall that ends in two sharp corners, the width of a closed chain, the extent of
+  /// an open one. Sharp corners have no size, and re-entrant arcs do not count. Infinite for an infinite line.
   Real smallest_size() const {
     Real size = infinity;
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
@@ -114,7 +113,7 @@ class Profile {
         size = std::min(size, p.high - p.low);
     }
     if (pieces_.empty() || std::isinf(pieces_.front().low)) return size;
-    // What it measures across its straight pieces, and in directions at 3 degrees from each other.
+    // Widths normal to the straight pieces, and in directions 3 degrees apart.
     Real least = infinity, largest = 0;
     const std::vector<Vec<Real, 2>> points = sample(length_ / 240, 0);
     const auto measure = [&](const Vec<Real, 2>& along) {
@@ -131,7 +130,7 @@ class Profile {
       if (p.curvature == 0) measure(left_of(p.heading));
     return std::min(size, period_ > 0 ? least : largest);
   }
-  /// Largest magnitude of the first coordinate [length]; infinite where an endless piece runs along it.
+  /// Largest magnitude of the first coordinate [length]; infinite if an endless piece extends along it.
   Real breadth() const {
     Real largest = 0;
     for (const Piece& p : pieces_)
@@ -140,7 +139,7 @@ class Profile {
     return largest;
   }
 
-  /// Points along the chain for a picture, at most `spacing` apart, endless pieces cut `reach` after their anchor.
+  /// Points along the chain for plotting: arcs at most `spacing` apart, endless pieces cut at `reach` [length].
   std::vector<Vec<Real, 2>> sample(Real spacing, Real reach) const {
     std::vector<Vec<Real, 2>> points;
     for (const Piece& piece : pieces_) {
@@ -159,7 +158,7 @@ class Profile {
     Vec<Real, 2> start, heading;  // at local coordinate 0
     Real low = 0, high = 0;       // range of the local coordinate
     Real curvature = 0;           // positive: turns right, convex towards the body
-    Real offset = 0;              // coordinate of the chain at the local coordinate 0
+    Real offset = 0;              // surface coordinate at the local coordinate 0
     Joint start_joint = Joint::open, end_joint = Joint::open;
   };
 
@@ -204,8 +203,8 @@ class Profile {
     return add(radius * angle, turn / radius);
   }
 
-  // Local coordinate of the point of the (extended) piece closest to x; on an arc counted from its middle, so that it
-  // is continuous over the arc.
+  // Local coordinate of the point of the (extended) piece closest to x; on an arc measured from its middle, so that it
+  // is continuous along the arc.
   template <class S>
   static S local_coordinate(const Piece& p, const Vec<S, 2>& x) {
     using std::atan2;
@@ -216,11 +215,11 @@ class Profile {
     const S vx = x[0] - S(c[0]), vy = x[1] - S(c[1]);
     const S along = vx * r[0] + vy * r[1], across = vy * r[0] - vx * r[1];
     if (value_of(along) == 0 && value_of(across) == 0)
-      return S(middle);  // the arc's centre has no closest point: take the middle
+      return S(middle);  // at the centre all points of the arc are equally close: take the middle
     return S(middle) - atan2(across, along) / S(p.curvature);
   }
 
-  // Distance of x to the piece; `excess` is by how much its closest point lies past an end, signed.
+  // Distance of x to the piece; `excess` is the signed length by which its closest point lies past an end.
   static Real distance(const Piece& p, const Vec<Real, 2>& x, Real& excess) {
     const Real s = local_coordinate<Real>(p, x);
     excess = s > p.high ? s - p.high : s < p.low ? s - p.low : 0;
@@ -235,8 +234,8 @@ class Profile {
     const Vec<Real, 2> n = left_of(p.heading);
     at.gap = (x[0] - S(p.start[0])) * n[0] + (x[1] - S(p.start[1])) * n[1];
     at.normal << S(n[0]), S(n[1]);
-    at.place[0] = S(p.offset) + local_coordinate(p, x);
-    at.grad_place << S(p.heading[0]), S(p.heading[1]);
+    at.surface_coordinate[0] = S(p.offset) + local_coordinate(p, x);
+    at.grad_surface << S(p.heading[0]), S(p.heading[1]);
     return at;
   }
 
@@ -248,7 +247,7 @@ class Profile {
     const Vec<Real, 2> c = centre(p);
     const Vec<S, 2> v(x[0] - S(c[0]), x[1] - S(c[1]));
     const S radius = sqrt(v[0] * v[0] + v[1] * v[1]);
-    at.place[0] = S(p.offset) + local_coordinate(p, x);
+    at.surface_coordinate[0] = S(p.offset) + local_coordinate(p, x);
     at.gap = (radius - S(1 / std::abs(p.curvature))) * sign;
     if (value_of(radius) > 0)
       at.normal << v[0] * (S(sign) / radius), v[1] * (S(sign) / radius);
@@ -260,10 +259,10 @@ class Profile {
     const Vec<S, 2> tangent(at.normal[1], -at.normal[0]);
     const S stretch = S(1) / (S(1) + at.gap * p.curvature);
     for (int i = 0; i < 2; ++i) {
-      at.grad_place[i] = tangent[i] * stretch;
+      at.grad_surface[i] = tangent[i] * stretch;
       for (int j = 0; j < 2; ++j) {
         at.hess_gap(i, j) = tangent[i] * tangent[j] * (stretch * p.curvature);
-        at.hess_place[0](i, j) =
+        at.hess_surface[0](i, j) =
             -(tangent[i] * at.normal[j] + at.normal[i] * tangent[j]) * (stretch * stretch * p.curvature);
       }
     }
@@ -278,7 +277,7 @@ class Profile {
     const Vec<S, 2> v(x[0] - S(corner[0]), x[1] - S(corner[1]));
     const S d = sqrt(v[0] * v[0] + v[1] * v[1]);
     at.gap = d * sign;
-    at.place[0] = S(place);
+    at.surface_coordinate[0] = S(place);
     if (value_of(d) == 0) return at;
     const S inverse = S(sign) / d;
     at.normal << v[0] * inverse, v[1] * inverse;
@@ -294,26 +293,26 @@ class Profile {
   Real period_ = 0;
 };
 
-/// A chain that begins at `start` and sets out in the direction `heading`.
+/// A chain that begins at `start` [length] in the direction `heading`.
 inline Profile path(const Vec<Real, 2>& start, const Vec<Real, 2>& heading) {
   return {start, heading};
 }
 
-/// An endless straight line through `point`; the body is on the left of `direction`.
+/// Infinite straight line through `point`; the body is on the left of `direction`.
 inline Profile line(const Vec<Real, 2>& point, const Vec<Real, 2>& direction) {
   Profile profile(point, direction);
   profile.straight(direction.norm()).endless();
   return profile;
 }
 
-/// A full disc, the body outside; in axisymmetry a sphere (centre on the axis) or a torus.
+/// Full disc, the body outside; in axisymmetry a sphere (centre on the axis) or a torus.
 inline Profile disc(const Vec<Real, 2>& centre, Real radius) {
   Profile profile(centre + Vec<Real, 2>(-radius, 0), {0, 1});
   profile.right(radius, 2 * pi).close();
   return profile;
 }
 
-/// The polygon line through `points` with every corner rounded to `radius` (0: sharp).
+/// Polyline through `points` [length] with every corner rounded to `radius` [length] (0: sharp).
 inline Profile rounded(const std::vector<Vec<Real, 2>>& points, Real radius) {
   if (points.size() < 2) throw std::invalid_argument("profile: a polygon line needs at least two points");
   if (!(radius >= 0)) throw std::invalid_argument("profile: the corner radius must not be negative");

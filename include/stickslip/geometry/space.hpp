@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-/// Vectors of space for the tools: products that take Real beside a dual number, and checked directions.
+/// Three-dimensional vectors for the tools: products of Real and dual vectors, and checked directions.
 namespace stickslip::rigid::detail {
 
 template <class A, class S>
@@ -17,9 +17,9 @@ S dot(const Vec<A, 3>& a, const Vec<S, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// v on the scalar S.
+/// v with the scalar type S.
 template <class S>
-Vec<S, 3> lifted(const Vec<Real, 3>& v) {
+Vec<S, 3> promote(const Vec<Real, 3>& v) {
   return {S(v[0]), S(v[1]), S(v[2])};
 }
 
@@ -35,18 +35,18 @@ Mat<S, 3> dyads(const Vec<S, 3>& e, const Vec<S, 3>& f, const S& ee, const S& ff
 }
 
 template <class S>
-Vec<Real, 3> plain(const Vec<S, 3>& v) {
+Vec<Real, 3> values(const Vec<S, 3>& v) {
   return {value_of(v[0]), value_of(v[1]), value_of(v[2])};
 }
 
-/// The unit vector along v; `name` begins the complaint about one without a direction.
+/// Unit vector along v. Throws std::invalid_argument, beginning with `name`, if v is zero or not finite.
 inline Vec<Real, 3> unit(const Vec<Real, 3>& v, const std::string& name) {
   const Real length = std::hypot(v[0], v[1], v[2]);
   if (!(length > 0) || !std::isfinite(length)) throw std::invalid_argument(name + " must be finite and not zero");
   return {v[0] / length, v[1] / length, v[2] / length};
 }
 
-/// Some unit vector at a right angle to the unit vector `a`.
+/// A unit vector orthogonal to the unit vector `a`.
 inline Vec<Real, 3> perpendicular(const Vec<Real, 3>& a) {
   int least = 0;
   for (int i = 1; i < 3; ++i)
@@ -56,7 +56,7 @@ inline Vec<Real, 3> perpendicular(const Vec<Real, 3>& a) {
   return e.normalized();
 }
 
-/// The answer to a point that is not a number: its gap is not one either.
+/// Distance of a point that is not finite: the gap is NaN.
 template <class S>
 Distance<S, 3> nowhere() {
   Distance<S, 3> at;

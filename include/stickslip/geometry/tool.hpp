@@ -10,7 +10,7 @@
 
 namespace stickslip::rigid {
 
-/// The kind of tool of a bundle that names none: a profile in a section, in space what profiles make.
+/// Default tool type of a model: a Profile in the plane, a Revolution or an Extruded in three dimensions.
 template <int dim>
 using Tool = std::conditional_t<dim == 2, Profile, AnyOf<Revolution, Extruded>>;
 

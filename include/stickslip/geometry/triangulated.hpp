@@ -4,7 +4,7 @@
 #include <stickslip/geometry/space.hpp>
 #include <stickslip/geometry/triangles.hpp>
 
-// Boost 1.74's R-tree includes a deprecated header of Boost's own and says so in every unit.
+// Boost 1.74's R-tree includes a deprecated header of Boost's own, which warns in every translation unit.
 #pragma push_macro("BOOST_ALLOW_DEPRECATED_HEADERS")
 #undef BOOST_ALLOW_DEPRECATED_HEADERS
 #define BOOST_ALLOW_DEPRECATED_HEADERS
@@ -31,20 +31,20 @@
 namespace stickslip::rigid {
 
 /// Rigid tool of triangles, curved by Nagata's quadratic patches through the vertices and their normals (theory.md,
-/// eq. 4.10-4.12). A vertex' normal is the mean of its triangles' with Max's weights, unless given. Two triangles
-/// that meet at more than the crease angle stay apart: their edge is sharp, and each side has normals of its own.
+/// eq. 4.10-4.12). A vertex normal is the mean of its triangles' normals with Max's weights, unless given. Edges whose
+/// triangles meet at more than the crease angle are sharp, with separate normals on each side.
 ///
-/// The closest point is taken over all patches. Patches meet along common curves; across a smooth edge gap and normal
-/// jump by no more than the patches' normals differ there, which is of second order in the size of the triangles: in
-/// the sliver between the normals of both sides one of the patches is led on past its edge. At a sharp edge that stands
-/// out towards the body the gap is positive all around; inside a re-entrant one it is measured to the edge. Past an
-/// open edge there is no contact. Where a patch would be folded (normals that do not fit the triangle) its edges are
-/// straight.
+/// The closest point is searched over all patches. Patches meet along common curves; across a smooth edge gap and
+/// normal jump by no more than the difference of the patches' normals there, of second order in the triangle size: in
+/// the sliver between the normals of both sides one of the patches is extended past its edge. At a sharp edge that
+/// protrudes towards the body the gap is positive all around; at a re-entrant edge penetration is the distance to the
+/// edge. Past an open edge there is no contact. A patch that would be folded (normals that do not fit the triangle)
+/// gets straight edges.
 class Triangulated {
  public:
-  /// `crease` [rad]: edges that turn by more stay sharp. Throws std::invalid_argument, naming the triangle (counted
-  /// from 0), if there are none, if one is degenerate, has a vertex that is not finite or does not exist, or runs along
-  /// an edge in the direction of its neighbour. With normals given all edges between triangles are smooth.
+  /// `crease` [rad]: edges with a larger angle are sharp; with normals given all edges between triangles are smooth.
+  /// Throws std::invalid_argument, naming the triangle (counted from 0), if there are none, if one is degenerate, has
+  /// an invalid vertex or normal, or traverses an edge in the same direction as its neighbour.
   explicit Triangulated(const Triangles& surface, Real crease = pi / 4) {
     check(surface);
     if (!(crease >= 0)) throw std::invalid_argument("triangulated: the crease angle must not be negative");
@@ -52,14 +52,14 @@ class Triangulated {
     std::vector<Leaf> leaves;
     leaves.reserve(patches_.size());
     for (std::size_t i = 0; i < patches_.size(); ++i) leaves.emplace_back(box_of(patches_[i]), i);
-    tree_ = Tree(leaves);  // all at once: packed
+    tree_ = Tree(leaves);  // built at once: a packed tree
   }
 
   bool empty() const { return patches_.empty(); }
   /// Number of triangles.
   Index size() const { return static_cast<Index>(patches_.size()); }
-  /// Smallest size that nodes should resolve: the least edge of the box around a closed surface, the largest of an open
-  /// one [length].
+  /// Smallest feature size that nodes should resolve [length]: the shortest edge of the bounding box of a closed
+  /// surface, the longest of an open one.
   Real smallest_size() const {
     V low = patches_[0].x[0], high = low;
     bool closed = true;
@@ -72,13 +72,13 @@ class Triangulated {
     return closed ? (high - low).minCoeff() : (high - low).maxCoeff();
   }
 
-  /// The surface seen from x, a point in the tool's frame.
+  /// Signed distance at x and its derivatives, in the tool's frame; a NaN gap for an x that is not finite.
   template <class S>
   Distance<S, 3> distance(const Vec<S, 3>& x) const {
-    const V plain = detail::plain(x);
+    const V plain = detail::values(x);
     if (!is_finite(plain)) return detail::nowhere<S>();
-    // A nearest box bounds the distance; then all boxes within it. (The tree's own walk from near to far sorts what it
-    // has seen at every leaf: Boost 1.74.)
+    // The nearest box limits the distance; then all boxes within this distance. (Boost 1.74's incremental nearest query
+    // sorts its candidates at every leaf.)
     namespace tree = boost::geometry::index;
     Foot best;
     tree_.query(tree::nearest(Point(plain[0], plain[1], plain[2]), 1),
@@ -94,10 +94,10 @@ class Triangulated {
     return seen(best, x);
   }
 
-  /// The same without the search tree, over all triangles: to check the search by.
+  /// The same without the search tree, over all triangles, to verify the search.
   template <class S>
   Distance<S, 3> distance_by_all(const Vec<S, 3>& x) const {
-    const V plain = detail::plain(x);
+    const V plain = detail::values(x);
     if (!is_finite(plain)) return detail::nowhere<S>();
     Foot best;
     for (std::size_t i = 0; i < patches_.size(); ++i) consider(i, plain, best);
@@ -112,16 +112,16 @@ class Triangulated {
   using Leaf = std::pair<Box, std::size_t>;
   using Tree = boost::geometry::index::rtree<Leaf, boost::geometry::index::rstar<8>>;
 
-  static constexpr Real tie = 1e-12;    // distances that differ by less, relative, are the same
-  static constexpr Real on_rim = 1e-9;  // so far past an edge a foot still belongs to the patch [of an edge]
-  static constexpr Real led_on = 0.25;  // so far a patch is led on past a smooth edge [of an edge]
+  static constexpr Real tie = 1e-12;    // relative difference below which distances are equal
+  static constexpr Real on_rim = 1e-9;  // overshoot past an edge at which a foot belongs to the patch [edge lengths]
+  static constexpr Real led_on = 0.25;  // overshoot to which a patch is extended past a smooth edge [edge lengths]
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
   enum class Rim { smooth, sharp, open };
 
   struct Patch {
     std::array<V, 3> x, c;           // corners; Nagata's vectors of the edges k to k + 1
-    std::array<V, 3> corner_normal;  // of all triangles at the corner, by their angles: for the sign
+    std::array<V, 3> corner_normal;  // angle-weighted mean of all triangles at the corner, for the sign
     std::array<Rim, 3> edge{}, corner{};
     std::array<std::size_t, 3> other{none, none, none};  // 3 * neighbour + its edge
   };
@@ -149,7 +149,7 @@ class Triangulated {
     }
   };
 
-  // Half the squared distance of x to a patch: gradient and Hessian by (u, v), at a Local.
+  // Gradient and Hessian of half the squared distance of x to a patch in (u, v); Gauss-Newton unless `exact`.
   static V2 gradient(const Local<Real>& at, const V& x) {
     const V d = at.p - x;
     return {at.p_u.dot(d), at.p_v.dot(d)};
@@ -162,7 +162,7 @@ class Triangulated {
     return h;
   }
   static Real determinant(const Mat<Real, 2>& h) { return h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0); }
-  // Whether the distance is convex, seen from x: the curvatures' factors 1 + kappa g, over those of the flat form.
+  // Whether the squared distance is convex: the determinants' ratio is the product of the factors 1 + kappa g.
   static bool definite(const Mat<Real, 2>& h, const Mat<Real, 2>& form) {
     return h(0, 0) > 0 && determinant(h) > 1e-6 * determinant(form);
   }
@@ -174,7 +174,7 @@ class Triangulated {
 
   static Real least(const V2& uv) { return std::min({1 - uv[0] - uv[1], uv[0], uv[1]}); }
 
-  // A curve of an edge, q(t) = a + (d - c) t + c t^2.
+  // Curve of an edge, q(t) = a + (d - c) t + c t^2.
   struct Curve {
     V a, d, c;
     V at(Real t) const { return a + (d - c) * t + c * (t * t); }
@@ -185,19 +185,19 @@ class Triangulated {
   }
   static V2 on_edge(std::size_t k, Real t) { return k == 0 ? V2(t, 0) : k == 1 ? V2(1 - t, t) : V2(0, 1 - t); }
 
-  // The closest point of a patch, its rim included.
+  // Closest point of a patch, including its rim.
   enum class Part { face, edge, corner };
   struct Foot {
     Real distance = std::numeric_limits<Real>::infinity();
     std::size_t patch = none;
     V2 uv = V2::Zero();
     Part part = Part::face;
-    std::size_t k = 0;  // which edge or corner
-    Real t = 0;         // where on the edge
+    std::size_t k = 0;  // index of the edge or corner
+    Real t = 0;         // parameter on the edge
   };
 
-  // Newton's method for the foot on the patch without its rim; falls back to Gauss and Newton's where the distance is
-  // not convex and halves steps that lead away. False if it leaves the patch by more than `reach` or does not arrive.
+  // Newton's method for the foot on the patch extended past its rim: Gauss-Newton where the distance is not convex, and
+  // halved steps where it grows. False if the foot is outside by more than `reach` or does not converge.
   static bool project(const Patch& patch, const V& x, V2& uv, Real reach) {
     const V2 from = uv;
     Local<Real> at(patch, uv[0], uv[1]);
@@ -220,7 +220,7 @@ class Triangulated {
       }
       if (least(uv) < -std::max(reach, Real(0.5)) - std::max(Real(0), -least(from))) return false;
       if (size < 1e-13) return convex && least(uv) >= -reach;
-      if (size < 1e-8 && convex) {  // converges quadratically: one more is exact
+      if (size < 1e-8 && convex) {  // quadratic convergence: one more step is exact
         uv += solve<Real>(hessian(at, x, true), -gradient(at, x));
         return least(uv) >= -reach;
       }
@@ -228,7 +228,7 @@ class Triangulated {
     return false;
   }
 
-  // The closest point of an edge's curve, in [0, 1]: Newton's method in a bracket.
+  // Parameter in [0, 1] of the closest point on an edge's curve: Newton's method in a bracket.
   static Real closest_on(const Curve& q, const V& x) {
     const auto slope = [&](Real t) { return q.slope(t).dot(q.at(t) - x); };
     const Real first = slope(0), last = slope(1);
@@ -253,7 +253,7 @@ class Triangulated {
     const Patch& patch = patches_[i];
     Foot foot;
     foot.patch = i;
-    // From the foot on the flat triangle.
+    // Starts from the foot on the flat triangle.
     const V e = patch.x[1] - patch.x[0], f = patch.x[2] - patch.x[0], d = x - patch.x[0];
     Mat<Real, 2> flat;
     flat << e.squaredNorm(), e.dot(f), e.dot(f), f.squaredNorm();
@@ -278,7 +278,7 @@ class Triangulated {
     return foot;
   }
 
-  // Takes the nearer one; of two as near, as on a common edge, that of the smaller number, whatever the order.
+  // Keeps the nearer foot; of two equally near ones, as on a common edge, that of the lower patch, in any search order.
   void consider(std::size_t i, const V& x, Foot& best) const {
     const Foot foot = foot_on(i, x);
     const bool first = best.patch == none, nearer = foot.distance < best.distance * (1 - tie),
@@ -292,7 +292,7 @@ class Triangulated {
     const Patch& patch = patches_[foot.patch];
     if (foot.part == Part::face) return from_patch(patch, foot.uv, x);
     const Rim rim = foot.part == Part::edge ? patch.edge[foot.k] : patch.corner[foot.k];
-    const V plain = detail::plain(x);
+    const V plain = detail::values(x);
     if (rim == Rim::smooth) {
       V2 uv = foot.uv;
       if (project(patch, plain, uv, led_on)) return from_patch(patch, uv, x);
@@ -312,12 +312,12 @@ class Triangulated {
     return from_rim(q, foot.part == Part::edge, foot.t, x, sign, out);
   }
 
-  // Eq. 4.12. (u, v) is the foot of x's value; a last step of Newton's method hands x's slopes on to it.
+  // Eq. 4.12. (u, v) is the foot of x's value; a last Newton step propagates the derivatives of x to it.
   template <class S>
   static Distance<S, 3> from_patch(const Patch& patch, const V2& uv, const Vec<S, 3>& x) {
     const Local<Real> plain(patch, uv[0], uv[1]);
     const Vec<S, 3> away(plain.p[0] - x[0], plain.p[1] - x[1], plain.p[2] - x[2]);
-    const Vec<S, 2> step = solve<S>(hessian(plain, detail::plain(x), true),
+    const Vec<S, 2> step = solve<S>(hessian(plain, detail::values(x), true),
                                     Vec<S, 2>(detail::dot(plain.p_u, away), detail::dot(plain.p_v, away)));
     const Local<S> at(patch, uv[0] - step[0], uv[1] - step[1]);
     Distance<S, 3> out;
@@ -328,7 +328,7 @@ class Triangulated {
     const S L = detail::dot(at.p_uu, out.normal), M = detail::dot(at.p_uv, out.normal),
             N = detail::dot(at.p_vv, out.normal);
     const S A = E - out.gap * L, B = F - out.gap * M, C = G - out.gap * N;
-    // II (I - g II)^-1 and I^-1 before it, each without their determinant.
+    // II (I - g II)^-1, then I^-1 times it, each without its determinant.
     const S k11 = L * C - M * B, k12 = M * A - L * B, k21 = M * C - N * B, k22 = N * A - M * B;
     const S scale = S(-1) / ((E * G - F * F) * (A * C - B * B));
     const S h11 = scale * (G * k11 - F * k21), h22 = scale * (E * k22 - F * k12),
@@ -337,24 +337,24 @@ class Triangulated {
     return out;
   }
 
-  // The distance to an edge's curve at t, or to a corner, with a sign. On it the normal is `out`.
+  // Signed distance to an edge's curve at t, or to a corner. On the edge or corner itself the normal is `out_of`.
   template <class S>
   static Distance<S, 3> from_rim(const Curve& q, bool edge, Real t, const Vec<S, 3>& x, Real sign, const V& out_of) {
     using std::sqrt;
     Distance<S, 3> out;
-    Vec<S, 3> p = detail::lifted<S>(q.a);
+    Vec<S, 3> p = detail::promote<S>(q.a);
     Mat<S, 3> along = Mat<S, 3>::Zero();
     if (edge) {
       const V tangent = q.slope(t), point = q.at(t);
       const Vec<S, 3> away(point[0] - x[0], point[1] - x[1], point[2] - x[2]);
-      const Real change = tangent.squaredNorm() + 2 * q.c.dot(point - detail::plain(x));
+      const Real change = tangent.squaredNorm() + 2 * q.c.dot(point - detail::values(x));
       const S at = t - detail::dot(tangent, away) / change;
       Vec<S, 3> slope;
       for (int i = 0; i < 3; ++i) {
         p[i] = q.a[i] + (q.d[i] - q.c[i]) * at + q.c[i] * (at * at);
         slope[i] = q.d[i] - q.c[i] + (2 * q.c[i]) * at;
       }
-      // Over the stretch of a parallel curve: 1 - curvature . (x - p).
+      // Stretch of a parallel curve: 1 - curvature . (x - p).
       const S square = detail::dot(slope, slope);
       const Vec<S, 3> d(x[0] - p[0], x[1] - p[1], x[2] - p[2]);
       const S stretch =
@@ -364,7 +364,7 @@ class Triangulated {
     const Vec<S, 3> d(x[0] - p[0], x[1] - p[1], x[2] - p[2]);
     const S length = sqrt(detail::dot(d, d));
     if (!(value_of(length) > 0)) {
-      out.normal = detail::lifted<S>(out_of);
+      out.normal = detail::promote<S>(out_of);
       out.gap = detail::dot(out_of, d);
       return out;
     }
@@ -377,7 +377,7 @@ class Triangulated {
     return out;
   }
 
-  // ---- Making ----
+  // ---- Construction ----
 
   static std::string name(std::size_t triangle) { return "triangulated: triangle " + std::to_string(triangle); }
 
@@ -412,7 +412,7 @@ class Triangulated {
     const V a = vertex(s, i, 0);
     return cross(V(vertex(s, i, 1) - a), V(vertex(s, i, 2) - a)).normalized();
   }
-  // Max's weight of a facet with the edges a and b at a vertex: of vertices on a sphere the mean is the sphere's
+  // Max's weight of a facet with the edges a and b at a vertex: for vertices on a sphere the mean is the sphere's
   // normal.
   static Real facet_weight(const V& a, const V& b) { return cross(a, b).norm() / (a.squaredNorm() * b.squaredNorm()); }
   static Real angle(const V& a, const V& b) { return std::atan2(cross(a, b).norm(), a.dot(b)); }
@@ -422,7 +422,7 @@ class Triangulated {
     std::vector<V> facet(count);
     for (std::size_t i = 0; i < count; ++i) facet[i] = facet_normal(s, i);
 
-    // Neighbours: an edge is walked once in each direction.
+    // Neighbours traverse their common edge in opposite directions.
     patches_.resize(count);
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> walked;  // from, to -> 3 * triangle + edge
     for (std::size_t i = 0; i < count; ++i)
@@ -444,7 +444,7 @@ class Triangulated {
       patch.edge[k] = sharp ? Rim::sharp : Rim::smooth;
     }
 
-    // Corners that smooth edges join share a normal.
+    // Corners connected by smooth edges share a normal.
     std::vector<std::size_t> group(3 * count);
     std::iota(group.begin(), group.end(), std::size_t(0));
     const auto root = [&](std::size_t i) {
@@ -481,14 +481,14 @@ class Triangulated {
       Patch& patch = patches_[i];
       for (std::size_t k = 0; k < 3; ++k) {
         if (!s.normals.empty() && !(normal(i, k).dot(facet[i]) > 0))
-          throw std::invalid_argument(name(i) + " turns its back on the normal of its vertex " +
+          throw std::invalid_argument(name(i) + " is opposed to the normal of its vertex " +
                                       std::to_string(number(s, i, k)));
         patch.x[k] = vertex(s, i, k);
         patch.corner[k] = corner[number(s, i, k)];
         const V n = around[number(s, i, k)];
         patch.corner_normal[k] = n.norm() > 1e-6 ? V(n.normalized()) : facet[i];
         const std::size_t other = patch.other[k];
-        if (other != none && other < 3 * i + k) {  // the neighbour has it
+        if (other != none && other < 3 * i + k) {  // computed for the neighbour
           patch.c[k] = patches_[other / 3].c[other % 3];
           continue;
         }
@@ -502,9 +502,9 @@ class Triangulated {
     straighten(facet);
   }
 
-  // Nagata's vector of an edge d with the normals n and m at its ends (eq. 4.10). The part along the edge, which only
-  // says how the curve is walked, is left out where it would be large; a curve that turns by more than a right angle
-  // becomes straight.
+  // Nagata's vector of an edge d with the normals n and m at its ends (eq. 4.10). The part along the edge only
+  // reparametrises the curve and is left out where it is large; a curve that turns by more than a right angle becomes
+  // straight.
   static V nagata(const V& d, const V& n, const V& m) {
     const V mean = 0.5 * (n + m), half = 0.5 * (n - m);
     const Real mean_square = mean.squaredNorm(), half_square = half.squaredNorm(), square = d.squaredNorm();
@@ -516,19 +516,19 @@ class Triangulated {
     return skew.squaredNorm() < 0.1 * square ? V(arch + skew) : arch;
   }
 
-  // The same for a sharp edge, whose sides have normals of their own: arched towards both.
+  // The same for a sharp edge with separate normals on each side: fits both.
   static V between(const V& d, const V& n1, const V& m1, const V& n2, const V& m2) {
     const V a = 0.5 * (n1 + m1), b = 0.5 * (n2 + m2);
     const Real f = 0.5 * (n1 - m1).dot(d), g = 0.5 * (n2 - m2).dot(d);
     Mat<Real, 2> gram;
     gram << a.squaredNorm(), a.dot(b), a.dot(b), b.squaredNorm();
-    if (!(determinant(gram) > 0.03)) return V::Zero();  // a crease that fades away
+    if (!(determinant(gram) > 0.03)) return V::Zero();  // the crease angle nearly vanishes
     const V2 share = solve<Real>(gram, V2(f, g));
     const V c = a * share[0] + b * share[1];
     return c.squaredNorm() < d.squaredNorm() ? c : V(V::Zero());
   }
 
-  // Makes the edges of folded patches straight, of both triangles at each, until none is folded. Flat ones are not.
+  // Straightens the edges of folded patches, on both sides, until none is folded. Flat patches never are.
   void straighten(const std::vector<V>& facet) {
     const std::array<V2, 7> places{V2(0, 0),   V2(1, 0),     V2(0, 1),          V2(0.5, 0),
                                    V2(0, 0.5), V2(0.5, 0.5), V2(1. / 3, 1. / 3)};
@@ -551,7 +551,7 @@ class Triangulated {
     }
   }
 
-  // The Bezier points of a quadratic patch hold it.
+  // A quadratic patch lies in the convex hull of its Bezier points.
   static Box box_of(const Patch& patch) {
     V low = patch.x[0], high = patch.x[0];
     for (std::size_t k = 0; k < 3; ++k)
@@ -567,8 +567,8 @@ class Triangulated {
     return (x - x.cwiseMax(a).cwiseMin(b)).norm();
   }
 
-  // The distance to the flat triangle less the patch's bulge over it, |sum lambda lambda c| <= max |c| / 3. Far from
-  // the tool many boxes are as near as the closest patch, and this costs less than a foot.
+  // Lower limit of the distance: to the flat triangle, less the patch's bulge, |sum lambda lambda c| <= max |c| / 3.
+  // Far from the tool many boxes are as near as the closest patch, and this costs less than a foot.
   static Real distance_at_least(const Patch& patch, const V& x) {
     const V e = patch.x[1] - patch.x[0], f = patch.x[2] - patch.x[0], d = x - patch.x[0];
     const V n = cross(e, f);

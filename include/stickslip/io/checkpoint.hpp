@@ -16,25 +16,25 @@
 #include <utility>
 #include <vector>
 
-/// Restart files: a frame of 40 bytes around the sections of an archive (docs/checkpoints.md).
+/// Restart files: a header of 40 bytes and the sections of an archive (docs/checkpoints.md).
 namespace stickslip::io {
 
-/// Of the format. It counts up whenever the layout of the file, the sections of a march or what they mean change; other
-/// versions are refused.
+/// Version of the format. It increases whenever the layout of the file, the sections of a march or their meaning
+/// change; other versions are refused.
 inline constexpr std::uint32_t checkpoint_version = 3;
 
 namespace detail {
 
 inline constexpr std::string_view checkpoint_magic = "stickslip state\n";
 
-/// What stands before the archive.
+/// Header before the archive.
 struct CheckpointFrame {
   char magic[16]{};
   std::uint32_t version = 0;
   std::uint32_t byte_order = 0;
   std::uint64_t length = 0;       ///< of the archive [bytes]
   std::uint32_t checksum = 0;     ///< of the archive, CRC-32
-  std::uint32_t frame_check = 0;  ///< of the frame up to here
+  std::uint32_t frame_check = 0;  ///< of the header up to here, CRC-32
 };
 static_assert(sizeof(CheckpointFrame) == 40);
 inline constexpr std::uint32_t this_byte_order = 0x01020304;
@@ -69,12 +69,12 @@ inline std::string pack(const std::vector<Section>& sections) {
   return bytes;
 }
 
-// Sections, out of the bytes of an archive. No count in them is believed before there are bytes for it.
+// Reads sections from the bytes of an archive; checks every count against the bytes that are left.
 class Unpacking {
  public:
   explicit Unpacking(std::string_view bytes) : bytes_(bytes) {}
 
-  // False if the bytes are no archive.
+  // False if the bytes are not an archive.
   bool read(std::vector<Section>& sections) {
     std::uint64_t count = 0;
     if (!take(count) || count > bytes_.size() / (3 * sizeof(count))) return false;
@@ -107,7 +107,7 @@ class Unpacking {
   std::string_view bytes_;
 };
 
-// The bytes of a file around those of an archive.
+// The bytes of a file: the header and those of an archive.
 inline std::string framed(std::string_view payload) {
   CheckpointFrame frame;
   frame.version = checkpoint_version;
@@ -121,17 +121,17 @@ inline std::string framed(std::string_view payload) {
 
 }  // namespace detail
 
-/// Writes a state to a file: beside it, flushed to the disc and renamed, so that at every moment FILE is the old one or
-/// the new one, whole (NewFile). Throws std::runtime_error, naming the file, when it cannot be written or is a device,
-/// say.
+/// Writes a state to a file: under a temporary name, flushed to the disc and renamed, so that the path names the
+/// complete old file or the complete new one at every moment (NewFile). Throws std::runtime_error, naming the file, if
+/// it cannot be written, for example because it is a device.
 inline void write_checkpoint(const std::filesystem::path& path, const Archive& archive) {
   NewFile file(path);
   file.write(detail::framed(detail::pack(archive.sections)));
   file.place(true);
 }
 
-/// Reads the bytes of a file that `write_checkpoint` wrote. Throws std::runtime_error, one sentence that begins with
-/// `name`, for anything else and for what has been damaged. Needs memory in proportion to the file.
+/// Reads the bytes of a file of `write_checkpoint`. Throws std::runtime_error, beginning with `name`, for any other
+/// file and for a damaged one. Memory is proportional to the size of the file.
 inline Archive read_checkpoint(std::string_view bytes, const std::string& name) {
   const auto refuse = [&](const std::string& what) { throw std::runtime_error(name + " " + what); };
   const std::string_view magic = detail::checkpoint_magic;
@@ -165,17 +165,17 @@ inline Archive read_checkpoint(const std::filesystem::path& path) {
   return read_checkpoint(detail::read_all(path), path.string());
 }
 
-/// Writes the state of a march between two steps, and that of whatever else belongs to the run and has a `serialize`
-/// (Archive). Call it in the loop over the steps, where it is due, and after the loop, where the march may have failed:
-/// the file then holds the state before the step that failed. Throws std::runtime_error, naming the file.
+/// Writes the state of a march between two steps, and of other objects of the run that have a `serialize` (Archive).
+/// Call it in the loop over the steps, when due, and after the loop, where the march may have failed: the file then
+/// holds the state before the failed step. Throws std::runtime_error, naming the file.
 template <class March, class... More>
 void save(const std::filesystem::path& path, March& march, More&... more) {
   write_checkpoint(path, Archive::of(march, more...));
 }
 
-/// Makes a march, and what else was saved with it, continue where the file says, bit for bit. The march is one of a
-/// problem that has been put together as the saved one was, with the options of the saved march. Throws
-/// std::runtime_error, one sentence with the file and the reason; march and problem are then as they were.
+/// Restores a march, and the objects saved with it, to continue from the file bit for bit. The problem of the march
+/// must be set up as the saved one was, with the options of the saved march. Throws std::runtime_error with the file
+/// and the reason; march and problem are then unchanged.
 template <class March, class... More>
 void load(const std::filesystem::path& path, March& march, More&... more) {
   read_checkpoint(path).restore(march, more...);

@@ -23,8 +23,8 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// The cells of a line, and how many there are: the first two are all that a good line has. Semicolons part them if
-// there are any, else commas, else blanks.
+// The first two cells of a line, and the number of cells: a valid line has two. Semicolons separate them if there are
+// any, else commas, else blanks.
 struct CsvCells {
   std::array<std::string_view, 2> cell;
   std::size_t count = 0;
@@ -38,7 +38,7 @@ struct CsvCells {
       if (end == line.npos) break;
       line.remove_prefix(end + 1);
       if (mark == ' ') line = trimmed(line);
-      if (line.empty()) ++count;  // a mark with nothing behind it
+      if (line.empty()) ++count;  // a separator with nothing behind it
     }
   }
   static std::string_view unquoted(std::string_view text) {
@@ -47,7 +47,7 @@ struct CsvCells {
   }
 };
 
-// Names of columns begin with a letter, as no number does but "inf" and "nan", which would be refused anyhow.
+// Names of columns begin with a letter; of the numbers only "inf" and "nan" do, which are refused anyway.
 inline bool names_columns(const CsvCells& cells) {
   if (cells.cell[0].empty()) return false;
   for (const std::string_view cell : cells.cell)
@@ -85,16 +85,16 @@ inline std::vector<FlowPoint> read_flow_points(std::string_view bytes, const std
 
 }  // namespace detail
 
-/// Reads the points of a flow curve from a table: a line each of plastic strain [-] and flow stress [stress], parted by
-/// a comma, a semicolon or blanks. A first line that names the columns, empty lines and what stands behind a # are
-/// passed over. The points are what `TabulatedHardening` takes, by the same rules. `name` is what complaints call the
-/// table. Throws std::runtime_error, one sentence with the file and the line, if it cannot be read or is no flow curve.
-/// Needs memory in proportion to the file.
+/// Reads the points of a flow curve from a table: per line plastic strain [-] and flow stress [stress], separated by a
+/// comma, a semicolon or blanks. A first line of column names, empty lines and text behind a # are ignored. The points
+/// obey the rules of `TabulatedHardening` (fault_of). `name` stands for the table in messages. Throws
+/// std::runtime_error, naming file and line, if the table cannot be read or is no flow curve. Memory is proportional to
+/// the size of the file.
 inline std::vector<FlowPoint> read_flow_points(std::istream& in, const std::string& name) {
   return detail::read_flow_points(detail::read_all(in, name), name);
 }
 
-/// The same from a file on the disc.
+/// The same from a file.
 inline std::vector<FlowPoint> read_flow_points(const std::filesystem::path& path) {
   return detail::read_flow_points(detail::read_all(path), path.string());
 }

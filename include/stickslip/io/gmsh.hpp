@@ -26,7 +26,7 @@ namespace stickslip::io {
 
 namespace detail {
 
-// Gmsh's elements of first order.
+// Gmsh's first-order elements.
 struct GmshType {
   int number, dim;
   std::size_t nodes;
@@ -41,7 +41,7 @@ inline constexpr std::array<GmshType, 8> gmsh_types{{{15, 0, 1, "a point", "poin
                                                      {6, 3, 6, "a prism", "prisms"},
                                                      {7, 3, 5, "a pyramid", "pyramids"}}};
 
-// What a Gmsh file says, before anybody knows whether it is a mesh.
+// Contents of a Gmsh file, not yet checked to be a mesh.
 struct GmshFile {
   using Tag = std::int64_t;
   struct Node {
@@ -60,9 +60,9 @@ struct GmshFile {
 
   std::vector<Node> nodes;
   std::vector<Element> elements;
-  std::map<Key, std::vector<Tag>> groups;  // of an entity
-  std::map<Key, std::string> names;        // of a group
-  std::set<Key> entities;                  // format 4.1: all that there are
+  std::map<Key, std::vector<Tag>> groups;  // groups of an entity
+  std::map<Key, std::string> names;        // name of a group
+  std::set<Key> entities;                  // format 4.1: all entities of the file
 };
 
 class GmshParser : public Text {
@@ -102,16 +102,16 @@ class GmshParser : public Text {
  private:
   using Tag = GmshFile::Tag;
   enum class Version { unknown, v2, v4 };
-  // Each of an entity's elements is in all of its groups: a file could ask for the product of both.
+  // Every element of an entity is in all of its groups: without this limit memory grows with the product of both.
   static constexpr Tag most_groups = 32;
   static constexpr Tag largest = std::numeric_limits<Tag>::max();
 
   Tag count(const char* wanted) { return integer<Tag>(word(), 0, largest, wanted); }
   Tag tag(const char* wanted) { return integer<Tag>(word(), -largest, largest, wanted); }
   int dimension(const char* wanted) { return integer<int>(word(), 0, 3, wanted); }
-  // Groups that are meant to run against an entity have a negative number.
+  // A negative number marks a group oriented against its entity.
   static Tag group(Tag number) { return number < 0 ? -number : number; }
-  // Counts are believed for as long as there is something to read.
+  // A false count does no harm: `read` throws at the end of the file.
   template <class Read>
   static void times(Tag n, Read&& read) {
     for (Tag i = 0; i < n; ++i) read();
@@ -145,9 +145,9 @@ class GmshParser : public Text {
     });
   }
 
-  // Partitioned entities are those that the elements of a partitioned mesh belong to. Each lies on another one, its
-  // parent, and repeats the parent's groups; one of fewer dimensions than its parent is a border between partitions,
-  // which belongs to no group of ours.
+  // The elements of a partitioned mesh belong to partitioned entities. Each lies on another entity, its parent, and
+  // repeats the parent's groups; one of lower dimension than its parent is an interface between partitions and is put
+  // into no group.
   void entities(bool partitioned) {
     if (partitioned) {
       count("the number of partitions");
@@ -256,7 +256,7 @@ class GmshParser : public Text {
       const GmshType& kind = type();
       Tag physical = 0, elementary = 0;
       const Tag tags = count("the number of tags");
-      for (Tag i = 0; i < tags; ++i) {  // those that follow tell of partitions
+      for (Tag i = 0; i < tags; ++i) {  // the others are partitions
         const Tag value = tag("a tag of an element");
         if (i == 0) physical = group(value);
         if (i == 1) elementary = value;
@@ -276,13 +276,13 @@ class GmshParser : public Text {
   std::set<std::string> seen_;
 };
 
-// What differs between the plane and space.
+// Element types, facets and orientation for two and three dimensions.
 template <int dim>
 struct GmshCells;
 template <>
 struct GmshCells<2> {
   using Cell = Quad4;
-  using Shape = Planar;
+  using TensorPattern = Planar;
   static constexpr int type = 3, facet_type = 1;
   static constexpr const char *facet = "edge", *nameless[] = {"point ", "curve "};
   // Counter-clockwise.
@@ -295,16 +295,16 @@ struct GmshCells<2> {
 template <>
 struct GmshCells<3> {
   using Cell = Hex8;
-  using Shape = Spatial;
+  using TensorPattern = Spatial;
   static constexpr int type = 5, facet_type = 3;
   static constexpr const char *facet = "face", *nameless[] = {"point ", "curve ", "surface "};
-  // Counter-clockwise seen from outside.
+  // Counter-clockwise viewed from outside.
   static constexpr std::array<std::array<std::size_t, 4>, 6> facets{
       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
   static constexpr std::array<std::size_t, 8> turned{4, 5, 6, 7, 0, 1, 2, 3};
   using Facet = std::array<Index, 4>;
   static Facet reversed(const Facet& f) { return {f[0], f[3], f[2], f[1]}; }
-  // The same walk, begun at the lowest number.
+  // The same cycle of nodes, begun at the lowest number.
   static Facet canonical(Facet f) {
     std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
     return f;
@@ -335,7 +335,7 @@ class GmshMesh {
   using Facet = typename Traits::Facet;
   static constexpr Index unused = -1, used = -2;
 
-  // A facet of a cell; `key` has its nodes in ascending order, so that both cells that share it find it.
+  // A facet of a cell; `key` lists its nodes in ascending order, the same for both cells that share it.
   struct CellFacet {
     Facet key, walk;
     std::size_t line;
@@ -356,15 +356,14 @@ class GmshMesh {
       if (places_[n].first == places_[n - 1].first)
         text_.fail(file_.nodes[places_[n].second].line, "there are two nodes " + std::to_string(places_[n].first));
   }
-  // Place in the file of the node that an element names.
+  // Index in the file of the node `tag`.
   std::size_t place(GmshFile::Tag tag, std::size_t line) const {
     const auto found = std::lower_bound(places_.begin(), places_.end(), std::pair<GmshFile::Tag, std::size_t>(tag, 0));
     if (found == places_.end() || found->first != tag) text_.fail(line, "there is no node " + std::to_string(tag));
     return found->second;
   }
 
-  // Format 2.2 writes a cell of two groups twice. Two cells of one entity and one group that are the same are a fault
-  // of the mesh.
+  // Format 2.2 repeats a cell for each of its groups. Equal cells of one entity in one group are a fault of the mesh.
   void find_repeated() {
     repeated_.assign(file_.elements.size(), false);
     std::map<GmshFile::Tag, GmshFile::Tag> group_of;
@@ -374,7 +373,7 @@ class GmshMesh {
         several = several || group_of.try_emplace(e.elementary, e.entity).first->second != e.entity;
     if (!several) return;
     using Key = std::pair<GmshFile::Tag, std::array<GmshFile::Tag, 8>>;  // entity, nodes in ascending order
-    std::map<Key, GmshFile::Tag> first;                                  // the group in which it is a cell
+    std::map<Key, GmshFile::Tag> first;                                  // group of its first appearance
     for (std::size_t k = 0; k < file_.elements.size(); ++k) {
       const Element& e = file_.elements[k];
       if (e.type->dim != dim) continue;
@@ -385,7 +384,7 @@ class GmshMesh {
     }
   }
 
-  // Nodes of cells alone, in the order of the file: the others would have no stiffness.
+  // Only nodes of cells, in the order of the file: the others would have no stiffness.
   void add_nodes() {
     number_.assign(file_.nodes.size(), unused);
     std::size_t cells = 0;
@@ -438,7 +437,7 @@ class GmshMesh {
       std::size_t positive = 0, negative = 0;
       for (const auto& point : rule) {
         const Mat<Real, dim> block = X.transpose() * Traits::Cell::gradient(point.xi);
-        auto jacobian = Tensor<Real, typename Traits::Shape>::identity();
+        auto jacobian = Tensor<Real, typename Traits::TensorPattern>::identity();
         for (int i = 0; i < dim; ++i)
           for (int j = 0; j < dim; ++j) jacobian(i, j) = block(i, j);
         const Real volume = determinant(jacobian);
@@ -461,7 +460,7 @@ class GmshMesh {
     }
   }
 
-  // Cells side by side walk along their common facet in opposite directions.
+  // Neighbouring cells traverse their common facet in opposite directions.
   void connect() {
     std::sort(facets_.begin(), facets_.end(),
               [](const CellFacet& a, const CellFacet& b) { return a.key != b.key ? a.key < b.key : a.line < b.line; });
@@ -477,7 +476,7 @@ class GmshMesh {
     }
   }
 
-  // The name of the side that a group becomes.
+  // Name of the side of a group.
   std::string name_of(const GmshFile::Key& group) const {
     const auto found = file_.names.find(group);
     if (found != file_.names.end() && !found->second.empty()) return found->second;
@@ -548,10 +547,10 @@ class GmshMesh {
   const GmshFile& file_;
   const Text& text_;
   MeshType mesh_;
-  std::vector<std::pair<GmshFile::Tag, std::size_t>> places_;  // in the file, by tag
-  std::vector<Index> number_;                                  // in the mesh, by place in the file
+  std::vector<std::pair<GmshFile::Tag, std::size_t>> places_;  // index in the file, sorted by tag
+  std::vector<Index> number_;                                  // node of the mesh, by index in the file
   std::vector<CellFacet> facets_;
-  std::vector<bool> repeated_;  // of the file's elements, those that are a cell already
+  std::vector<bool> repeated_;  // for each element of the file: an earlier one is the same cell
 };
 
 template <int dim>
@@ -564,25 +563,25 @@ typename GmshMesh<dim>::MeshType read_gmsh(std::string_view bytes, const std::st
 }  // namespace detail
 
 /// Reads a mesh from a Gmsh file (MSH 4.1 or 2.2, ASCII): quadrilaterals with dim 2, in the x-y plane, hexahedra with
-/// dim 3. `name` is what complaints call the file.
+/// dim 3. `name` stands for the file in messages.
 ///
-/// Physical groups of curves in the plane and of surfaces in space become sides, called as they are, or "curve 7" where
-/// they have no name; their facets are turned to have the body where `Side` wants it and must lie on its boundary.
-/// Groups of fewer dimensions become sides of nodes without facets: good to hold, not to load. What cells have is kept,
-/// in the order of the file: nodes of no cell and elements of no group go. Cells that are numbered clockwise (in space:
-/// mirrored) are turned. Of a partitioned mesh the whole is read, as if it had not been parted; parameters of nodes are
-/// passed over; a cell that format 2.2 repeats for each of its groups is one cell. Nodes at one place stay apart:
-/// blocks that were not joined. A run of such a mesh warns of them (mesh/coincident_nodes.hpp).
+/// Physical groups of curves in the plane and of surfaces in space become sides with their names, or "curve 7" without
+/// one; facets are oriented as `Side` requires and must lie on the boundary. Groups of lower dimension become sides of
+/// nodes without facets, which can be held but not loaded. The order of the file is kept; nodes without a cell and
+/// boundary elements without a group are dropped. Cells that are numbered clockwise (in space: mirrored) are reversed.
+/// A partitioned mesh is read as a whole; parameters of nodes are ignored; a cell that format 2.2 repeats for each of
+/// its groups is one cell. Coincident nodes, as of blocks that were not merged, stay separate. A run of such a mesh
+/// warns of them (mesh/coincident_nodes.hpp).
 ///
-/// Throws std::runtime_error, one sentence with the file and the line, if it cannot be read, is not what it claims to
-/// be, or is no mesh: cells of another kind, folded or on one another. Needs memory in proportion to the file, never to
-/// a count that it merely claims.
+/// Throws std::runtime_error, naming file and line, if the file cannot be read, is malformed, or is no valid mesh:
+/// cells of another type, folded or overlapping. Memory is proportional to the size of the file, independent of the
+/// counts in it.
 template <int dim>
 Mesh<dim, detail::GmshMesh<dim>::nodes_per_cell> read_gmsh(std::istream& in, const std::string& name) {
   return detail::read_gmsh<dim>(detail::read_all(in, name), name);
 }
 
-/// The same from a file on the disc.
+/// The same from a file.
 template <int dim>
 Mesh<dim, detail::GmshMesh<dim>::nodes_per_cell> read_gmsh(const std::filesystem::path& path) {
   return detail::read_gmsh<dim>(detail::read_all(path), path.string());

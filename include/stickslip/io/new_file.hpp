@@ -25,17 +25,17 @@
 #include <system_error>
 #include <utility>
 
-/// How files get onto the disc: whole or not at all, in the classic locale, and by one run at a time.
+/// Writing of files: completely or not at all, in the classic locale, and by one run at a time.
 namespace stickslip::io {
 
 namespace detail {
 
-/// What the system says of an error: "No space left on device".
+/// The system's message for an error number, such as "No space left on device".
 inline std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
-/// Writes all bytes to a descriptor. Returns 0 or the error.
+/// Writes all bytes to a descriptor. Returns 0 or the error number.
 inline int write_all(int file, const char* bytes, std::size_t count) {
   while (count > 0) {
     const ssize_t written = ::write(file, bytes, count);
@@ -50,7 +50,7 @@ inline int write_all(int file, const char* bytes, std::size_t count) {
 inline constexpr std::string_view partial_mark = ".partial-";
 inline constexpr std::size_t partial_digits = 16;
 
-/// Bytes on their way to a descriptor; the first error is kept.
+/// Stream buffer that writes to a descriptor; keeps the first error.
 class DescriptorBuffer : public std::streambuf {
  public:
   int file = -1, error = 0;
@@ -74,15 +74,15 @@ class DescriptorBuffer : public std::streambuf {
 
 }  // namespace detail
 
-/// What may stand where a file is to be written: nothing or a regular file, or also a device or a pipe that is written
-/// to as it is.
+/// What may exist at the path of a new file: nothing or a regular file, or with `any` also a device or a pipe, which is
+/// written to directly.
 enum class Target { regular, any };
 
-/// A file that is being written: beside its place under a fresh name, NAME.partial- and 16 digits, until `place()`
-/// puts it there. So at every moment there is the old file or the new one, whole; what goes wrong leaves the old one
-/// and nothing beside it. A link is followed to the file that it names, which keeps its permissions. Numbers are
-/// written in the classic locale, whatever the global one is. Throws std::runtime_error, one sentence with the file and
-/// the reason.
+/// A file written under a temporary name beside its path, NAME.partial- and 16 digits, which `place()` renames to the
+/// path. So the path names the complete old file or the complete new one at every moment; after an error the old file
+/// remains and the temporary file is removed. A link is followed to its target, which keeps its permissions. Numbers
+/// are written in the classic locale, whatever the global one is. Throws std::runtime_error with the file and the
+/// reason.
 class NewFile {
  public:
   explicit NewFile(std::filesystem::path path, Target target = Target::regular)
@@ -104,7 +104,7 @@ class NewFile {
     if (there) place_ = std::filesystem::canonical(path_, error);
     if (error) fail(error.value());
     std::random_device random;
-    do {  // O_EXCL: neither a file of another run nor a link that somebody has put there
+    do {  // O_EXCL refuses the file of another run and any link at this name
       std::array<char, detail::partial_digits> digits{};
       for (char& digit : digits) digit = "0123456789abcdef"[random() % 16];
       partial_ = place_;
@@ -127,7 +127,7 @@ class NewFile {
   std::ostream& stream() { return out_; }
   void write(std::string_view bytes) { out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); }
 
-  /// Puts it in the place of the old one; `durable`: so that it outlives a loss of power.
+  /// Renames the file to its path; if `durable`, flushed to the disc so that it survives a loss of power.
   void place(bool durable = false) {
     out_.flush();
     if (buffer_.error != 0) fail(buffer_.error);
@@ -139,7 +139,7 @@ class NewFile {
     if (std::rename(partial_.c_str(), place_.c_str()) != 0) fail(errno);
     partial_.clear();
     if (!durable) return;
-    // The new name as well; some file systems cannot be asked for that.
+    // Flushes the new name as well; some file systems do not support that.
     const auto folder = place_.has_parent_path() ? place_.parent_path() : std::filesystem::path(".");
     if (const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); handle >= 0) {
       (void)flushed(handle);
@@ -148,7 +148,7 @@ class NewFile {
   }
 
  private:
-  // Names of what a process has open already: /dev/stdout, /dev/fd/5.
+  // Whether the path names an open descriptor of a process: /dev/stdout, /dev/fd/5.
   bool is_descriptor() const {
     const std::string text = std::filesystem::absolute(path_).lexically_normal().string();
     return text.starts_with("/dev/") || text.starts_with("/proc/");
@@ -162,7 +162,7 @@ class NewFile {
   [[noreturn]] void refuse(const std::string& why) const {
     throw std::runtime_error("cannot write " + path_.string() + ": " + why);
   }
-  // A constructor that throws is not destroyed.
+  // Called in the constructor only with nothing to release: the destructor does not run then.
   [[noreturn]] void fail(int error) const { refuse(detail::reason(error)); }
 
   std::filesystem::path path_, place_, partial_;
@@ -170,7 +170,7 @@ class NewFile {
   std::ostream out_;
 };
 
-/// Writes a file whole or not at all, see NewFile: write(std::ostream&) says what is in it.
+/// Writes a file completely or not at all (NewFile); write(std::ostream&) writes the contents.
 template <class Write>
 void write_file(const std::filesystem::path& path, Write&& write) {
   NewFile file(path);
@@ -178,11 +178,11 @@ void write_file(const std::filesystem::path& path, Write&& write) {
   file.place();
 }
 
-/// Throws std::runtime_error, naming the file and the reason, if a file could not be written now; leaves none.
+/// Throws std::runtime_error, naming the file and the reason, if the path is not writable now; leaves no file.
 inline void check_writable(const std::filesystem::path& path, Target target = Target::regular) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  // To open a pipe is to wait for who reads it.
+  // Opening a pipe would wait for its reader.
   if (target == Target::any && std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
       !std::filesystem::is_directory(status)) {
     if (::access(path.c_str(), W_OK) != 0)
@@ -192,8 +192,8 @@ inline void check_writable(const std::filesystem::path& path, Target target = Ta
   const NewFile file(path, target);
 }
 
-/// Removes what runs that were killed have left of files that they were writing: all in the folder, or those of the
-/// file `name`. For who holds the folder's or the file's lock.
+/// Removes the temporary files that killed runs have left: all in the folder, or those of the file `name`. The caller
+/// must hold the lock of the folder or the file.
 inline void remove_partials(const std::filesystem::path& folder, const std::string& name = "") {
   std::error_code error;
   for (std::filesystem::directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end;
@@ -209,12 +209,12 @@ inline void remove_partials(const std::filesystem::path& folder, const std::stri
   }
 }
 
-/// Keeps a folder or a file to one run. The lock is a file with the process' number that the system holds for as long
-/// as the process lives; what a killed run has left is taken over. Removed at the end.
+/// Reserves a folder or a file for one run. The lock is a file with the process number, locked by the system as long as
+/// the process lives; the file of a killed run is taken over. The destructor removes it.
 class RunLock {
  public:
-  /// `lock` is the file of the lock, `of` what it is of. Throws std::runtime_error, one sentence that begins with `of`
-  /// and names the process, if another run has it.
+  /// `lock` is the lock file, `of` the reserved folder or file. Throws std::runtime_error, beginning with `of` and
+  /// naming the process, if another run holds the lock, or with the reason if it cannot be made.
   RunLock(std::filesystem::path lock, const std::filesystem::path& of) : path_(std::move(lock)) {
     const auto refuse = [&](const std::string& why) {
       if (file_ >= 0) ::close(std::exchange(file_, -1));
@@ -229,7 +229,7 @@ class RunLock {
       if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
         const int error = errno;
         const int owner = read_owner();
-        // Some file systems know no locks: there the process' number must do.
+        // Some file systems have no locks: there the process number decides.
         const bool held =
             error == EWOULDBLOCK || (owner > 0 && owner != ::getpid() && (::kill(owner, 0) == 0 || errno == EPERM));
         if (held) {
@@ -238,7 +238,7 @@ class RunLock {
                                    (owner > 0 ? std::to_string(owner) : "unknown") + " (" + path_.string() + ")");
         }
       }
-      // The run before may have removed the file between its being opened and locked.
+      // The previous run may have removed the file between open and lock.
       struct ::stat now {};
       if (::lstat(path_.c_str(), &now) == 0 && now.st_ino == ours.st_ino && now.st_dev == ours.st_dev) break;
       ::close(std::exchange(file_, -1));

@@ -27,14 +27,14 @@
 
 namespace stickslip::io {
 
-/// What says where outside is: the order of a triangle's corners, which the right hand's fingers follow while its thumb
-/// points out, or the normal that is written beside them. The format wants both, and alike.
+/// Which data define the outside of a triangle: the order of its corners by the right-hand rule, its normal in the
+/// file, or `agreed`: both, which must be consistent as the format requires.
 enum class Outside { agreed, corners, normals };
 
 namespace detail {
 
-// What a file lists: corners, three a triangle, each with vertices of its own, and a normal for each triangle, of any
-// length and possibly not a number.
+// Contents of a file: three corners per triangle, not shared between triangles, and one normal per triangle, of any
+// length or NaN.
 struct Facets {
   std::vector<Vec<Real, 3>> corners, normals;
   std::vector<std::size_t> places;  // lines (ASCII) or bytes (binary) of the triangles
@@ -48,7 +48,7 @@ inline std::string lower(std::string_view text) {
   return small;
 }
 
-// Words of an ASCII STL file, in which capitals and small letters are the same.
+// Words of an ASCII STL file, without regard to case.
 class StlWords : public Text {
  public:
   using Text::Text;
@@ -64,7 +64,7 @@ class StlWords : public Text {
     if (found != "end") unexpected(found, "\"end" + of + "\"");
     expect(of.c_str());
   }
-  // A component of a normal. Of a triangle without area they are not numbers, spelled as the writer's language does:
+  // A component of a normal: for a triangle without area not a number, in the spelling of the program that wrote it:
   // nan, -nan(ind), 1.#IND.
   Real component() {
     const std::string found = next();
@@ -150,7 +150,7 @@ inline Vec<Real, 3> cross_product(const Vec<Real, 3>& a, const Vec<Real, 3>& b) 
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// Turns triangles, or refuses a file that says two things of where outside is. `extent` is the diagonal of the box.
+// Reverses triangles, or refuses a file whose corners and normals disagree. `extent` is the diagonal of the box.
 inline void settle_outside(Facets& facets, Real extent, Outside outside, const std::string& name) {
   if (outside == Outside::corners) return;
   const std::size_t count = facets.normals.size();
@@ -160,7 +160,7 @@ inline void settle_outside(Facets& facets, Real extent, Outside outside, const s
     const auto scaled = [&](std::size_t k) -> Vec<Real, 3> { return facets.corners[3 * i + k] / extent; };
     const Vec<Real, 3> a = scaled(1) - scaled(0), b = scaled(2) - scaled(0), area = cross_product(a, b);
     const Vec<Real, 3> normal = facets.normals[i].stableNormalized();
-    // A triangle whose height is lost in the digits of a file has no normal that could say anything.
+    // A triangle whose height is below the precision of the file has no meaningful normal.
     const Real longest = std::max({a.norm(), b.norm(), (a - b).norm()});
     Real largest = 1;
     for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, scaled(k).cwiseAbs().maxCoeff());
@@ -179,14 +179,14 @@ inline void settle_outside(Facets& facets, Real extent, Outside outside, const s
                              " triangles; say which is right where the file is read, Outside::normals or "
                              "Outside::corners");
   const auto turn = [&](std::size_t i) { std::swap(facets.corners[3 * i + 1], facets.corners[3 * i + 2]); };
-  if (against.size() == judged)  // those that cannot be judged go with the others
+  if (against.size() == judged)  // triangles without meaningful normal follow the others
     for (std::size_t i = 0; i < count; ++i) turn(i);
   else
     for (const std::size_t i : against) turn(i);
 }
 
-// Gives corners in a box of diagonal `extent` one vertex if they are closer than `tolerance`; leaves out triangles of
-// which two corners fall together.
+// Merges corners closer than `tolerance` into one vertex, in a box of diagonal `extent` [length]; drops triangles of
+// which two corners coincide.
 inline rigid::Triangles merge(const std::vector<Vec<Real, 3>>& corners, Real extent, Real tolerance) {
   struct Hash {
     std::size_t operator()(const std::array<std::int64_t, 3>& cell) const {
@@ -199,7 +199,7 @@ inline rigid::Triangles merge(const std::vector<Vec<Real, 3>>& corners, Real ext
   std::unordered_multimap<std::array<std::int64_t, 3>, Index, Hash> cells;
   Vec<Real, 3> origin = corners[0];
   for (const auto& x : corners) origin = origin.cwiseMin(x);
-  // A cell is no smaller than its numbers can count, however small the tolerance.
+  // The lower limit of the cell size keeps cell numbers countable for every tolerance.
   const Real size = std::max(4 * tolerance, 1e-12 * extent);
   const auto cell = [&](const Vec<Real, 3>& x) {
     std::array<std::int64_t, 3> c{};
@@ -230,8 +230,8 @@ inline rigid::Triangles merge(const std::vector<Vec<Real, 3>>& corners, Real ext
   return out;
 }
 
-// Takes out triangles without area, no higher than `tolerance`: a mesher puts them where vertices of one patch lie on
-// an edge of the next. Such an edge is divided at the vertex instead, so that the surface stays closed.
+// Removes slivers, triangles no higher than `tolerance`: meshers make them where vertices of one patch lie on an edge
+// of the next. Such an edge is divided at the vertex instead, so that the surface stays closed.
 inline void take_out_slivers(rigid::Triangles& surface, Real tolerance) {
   using Triangle = std::array<Index, 3>;
   const auto vertex = [&](Index n) -> const Vec<Real, 3>& { return surface.vertices[static_cast<std::size_t>(n)]; };
@@ -248,7 +248,7 @@ inline void take_out_slivers(rigid::Triangles& surface, Real tolerance) {
     for (int k = 0; k < 3; ++k, std::rotate(t.begin(), t.begin() + 1, t.end()))
       if (const Real l = (vertex(t[1]) - vertex(t[0])).stableNorm(); l > length) found = {length = l, t, at};
     const auto& [from, to, top] = found.triangle;
-    // Of edges over the longest one, whose squares are numbers.
+    // Edges over the longest one, so that their squares do not overflow.
     const Vec<Real, 3> along = (vertex(to) - vertex(from)) / length, side = (vertex(top) - vertex(from)) / length;
     return !(cross_product(along, side).norm() > std::max(tolerance / length, Real(2e-12)));
   };
@@ -257,7 +257,7 @@ inline void take_out_slivers(rigid::Triangles& surface, Real tolerance) {
   for (std::size_t i = 0; i < triangles.size(); ++i)
     if (flat(i, found)) work.push(found);
   if (work.empty()) return;
-  // From, to -> the triangle, if there is one only.
+  // From, to -> the triangle; none if there are several.
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::map<std::pair<Index, Index>, std::size_t> walked;
   for (std::size_t i = 0; i < triangles.size(); ++i)
@@ -281,7 +281,7 @@ inline void take_out_slivers(rigid::Triangles& surface, Real tolerance) {
     Flat again{};
     if (flat(i, again)) work.push(again);
   };
-  // Each division brings a vertex into a triangle of its own; one that would go round in circles is left out.
+  // Each division moves a vertex into the neighbour; the budget ends cyclic divisions.
   for (std::size_t budget = 8 * work.size() + 8; !work.empty();) {
     const Flat now = work.top();
     work.pop();
@@ -292,7 +292,7 @@ inline void take_out_slivers(rigid::Triangles& surface, Real tolerance) {
       Triangle a = t, b = now.triangle;
       std::sort(a.begin(), a.end());
       std::sort(b.begin(), b.end());
-      if (a != b) continue;  // of a triangle that has been divided since
+      if (a != b) continue;  // the triangle has been divided since
     }
     const auto across = walked.find({to, from});
     const std::size_t other = across == walked.end() ? none : across->second;
@@ -306,7 +306,7 @@ inline void take_out_slivers(rigid::Triangles& surface, Real tolerance) {
     for (const Index n : triangles[other])
       if (n != from && n != to) far = n;
     forget(other);
-    if (far == top) {  // the same triangle, seen from the other side
+    if (far == top) {  // the same triangle with opposite orientation
       gone[now.at] = gone[other] = true;
       continue;
     }
@@ -331,7 +331,7 @@ inline rigid::Triangles read_stl(std::string_view view, const std::string& name,
   const bool solid = first != std::string_view::npos && lower(text.substr(first, 5)) == "solid";
   const std::size_t wanted = view.size() < stl_header ? 0 : stl_header + stl_triangle * std::size_t(stl_count(view));
   const bool whole = wanted != 0 && view.size() >= wanted;
-  // Some binary files begin with "solid", but none without zero bytes; some texts end with them.
+  // Some binary files begin with "solid", but all contain zero bytes; some texts end with zero bytes.
   const std::string_view words = text.substr(0, text.find_last_not_of(std::string_view("\0\x1a", 2)) + 1);
   const bool ascii = solid && view.size() != wanted && words.find('\0') == std::string_view::npos;
   if (!ascii && !whole) {
@@ -341,7 +341,7 @@ inline rigid::Triangles read_stl(std::string_view view, const std::string& name,
     throw std::runtime_error(name + ", byte 80: claims " + std::to_string(stl_count(view)) + " triangles, which take " +
                              std::to_string(wanted) + " bytes, but the file has " + std::to_string(view.size()));
   }
-  // What stands behind the last triangle is nobody's, unless it could be more triangles.
+  // Bytes after the last triangle are ignored, unless they could be more triangles.
   if (!ascii) {
     const std::string_view behind = view.substr(wanted);
     if (!behind.empty() && behind.size() % stl_triangle == 0 && behind.find_first_not_of('\0') != behind.npos)
@@ -370,25 +370,25 @@ inline rigid::Triangles read_stl(std::string_view view, const std::string& name,
 
 }  // namespace detail
 
-/// Reads a surface from an STL file, ASCII or binary, whichever it is; `name` is what complaints call it. Corners
-/// closer to each other than `merge` times the diagonal of the surface's box become one vertex. Triangles that lose a
-/// side by it, or that are no higher, go: where they filled the seam between a vertex and an edge that it lies on, the
-/// edge is divided there.
+/// Reads a surface from an ASCII or a binary STL file; `name` stands for it in messages. Corners closer to each other
+/// than `merge` times the diagonal of the bounding box become one vertex. Triangles that lose a side by it, or that are
+/// no higher, are removed: where they closed the seam between a vertex and an edge that contains it, the edge is
+/// divided there.
 ///
-/// Where outside is, the order of the corners and the normals in the file say, and both alike. A file in which they
-/// contradict each other is refused, unless `outside` tells which is right; normals that are zero, no numbers or nearly
-/// in the triangle's plane say nothing.
+/// The order of the corners and the normals in the file define the outside, and must agree. A file in which they
+/// contradict each other is refused, unless `outside` selects one of them; normals that are zero, not numbers or nearly
+/// in the triangle's plane are ignored.
 ///
-/// Throws std::runtime_error, one sentence with the file and the line (ASCII) or byte (binary), if the file cannot be
-/// read or is not what it claims to be. Needs memory in proportion to the file, never to a count that the file merely
-/// claims. Bytes behind a binary file's last triangle are passed over, unless they would make further triangles.
+/// Throws std::runtime_error, naming the file and the line (ASCII) or byte (binary), if it cannot be read or is
+/// malformed, std::invalid_argument if `merge` is outside [0, 0.1). Memory is proportional to the size of the file,
+/// whatever its count. Bytes after a binary file's last triangle are ignored, unless they could be further ones.
 inline rigid::Triangles read_stl(std::istream& in, const std::string& name, Real merge = 1e-6,
                                  Outside outside = Outside::agreed) {
   detail::check_merge(merge);
   return detail::read_stl(detail::read_all(in, name), name, merge, outside);
 }
 
-/// The same from a file on the disc.
+/// The same from a file.
 inline rigid::Triangles read_stl(const std::filesystem::path& path, Real merge = 1e-6,
                                  Outside outside = Outside::agreed) {
   detail::check_merge(merge);
@@ -398,7 +398,7 @@ inline rigid::Triangles read_stl(const std::filesystem::path& path, Real merge =
 enum class StlFormat { binary, ascii };
 
 /// Writes a surface as an STL file: binary in single precision, ASCII in full. Throws std::runtime_error, naming the
-/// file and the reason, when it cannot be written.
+/// file and the reason, if it cannot be written.
 inline void write_stl(const std::filesystem::path& path, const rigid::Triangles& surface,
                       StlFormat format = StlFormat::binary) {
   static_assert(std::endian::native == std::endian::little, "binary STL files hold little-endian numbers");

@@ -18,11 +18,11 @@
 #include <system_error>
 #include <utility>
 
-/// What the readers share. All of them take a file as it is on the disc and believe no count in it: memory grows with
-/// what has been read, never with what is claimed.
+/// Common parts of the readers. Readers trust no count in a file: memory grows with the bytes read, never with a
+/// claimed count.
 namespace stickslip::io::detail {
 
-/// All bytes of a stream. Throws std::runtime_error, naming it and, where the system gives one, the reason.
+/// All bytes of a stream. Throws std::runtime_error, naming the stream and, if known, the reason.
 inline std::string read_all(std::istream& in, const std::string& name) {
   std::string bytes;
   std::array<char, 1 << 12> block{};
@@ -34,8 +34,7 @@ inline std::string read_all(std::istream& in, const std::string& name) {
   return bytes;
 }
 
-/// All bytes of a regular file: a device or a pipe might never end. Throws std::runtime_error, naming it and the
-/// reason.
+/// All bytes of a regular file; a device or a pipe might never end. Throws std::runtime_error, naming file and reason.
 inline std::string read_all(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& why) {
     throw std::runtime_error("cannot read " + path.string() + ": " + why);
@@ -45,20 +44,20 @@ inline std::string read_all(const std::filesystem::path& path) {
   if (error) refuse(error.message());
   if (!regular) refuse("it is no regular file");
   std::ifstream in;
-  in.imbue(std::locale::classic());  // whose bytes are the file's
+  in.imbue(std::locale::classic());  // without conversion of bytes
   errno = 0;
   in.open(path, std::ios::binary);
   if (!in.is_open()) refuse(std::generic_category().message(errno));
   return read_all(in, path.string());
 }
 
-/// Without the mark by which some programs begin a text in UTF-8.
+/// The bytes without a leading byte order mark of UTF-8.
 inline std::string_view without_mark(std::string_view bytes) {
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
   return bytes;
 }
 
-/// Bytes of a file as a sentence may quote them: garbage may be long and may not be text.
+/// Bytes of a file as quoted in a message: cut to length, with ? for bytes that are not printable.
 inline std::string shown(std::string_view bytes, std::size_t longest = 20) {
   std::string text(bytes.substr(0, longest));
   for (char& c : text)
@@ -66,7 +65,7 @@ inline std::string shown(std::string_view bytes, std::size_t longest = 20) {
   return bytes.size() > longest ? text + "..." : text;
 }
 
-/// A text that is being read, by its name and the line that has been reached; complaints name both.
+/// Reader of a text that counts lines; messages give the name of the text and the line.
 class Text {
  public:
   Text(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}
@@ -77,18 +76,18 @@ class Text {
   [[noreturn]] void fail(std::size_t line, const std::string& what) const {
     throw std::runtime_error(name_ + ", line " + std::to_string(line) + ": " + what);
   }
-  /// Of the file as a whole.
+  /// For a fault of the whole file.
   [[noreturn]] void fail_whole(const std::string& what) const { throw std::runtime_error(name_ + ": " + what); }
-  /// `word` is not what was `wanted`; it is empty at the end of the file.
+  /// Fails because `word`, empty at the end of the file, is not what was `wanted`.
   [[noreturn]] void unexpected(std::string_view word, const std::string& wanted) const {
     if (word.empty()) fail("the file ends where " + wanted + " should stand");
     fail("found \"" + shown(word) + "\" where " + wanted + " should stand");
   }
 
-  /// The finite number that `word` is.
+  /// `word` as a finite number.
   Real real(std::string_view word, const char* wanted = "a number") const {
     const char *first = word.data(), *last = first + word.size();
-    if (word.size() > 1 && word[0] == '+' && word[1] != '-') ++first;  // from_chars takes no plus
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') ++first;  // from_chars accepts no plus sign
     Real value = 0;
     const auto [end, error] = std::from_chars(first, last, value);
     if (error == std::errc::result_out_of_range) fail("the number \"" + shown(word) + "\" is out of range");
@@ -96,7 +95,7 @@ class Text {
     if (!std::isfinite(value)) fail("the number \"" + shown(word) + "\" is not finite");
     return value;
   }
-  /// The whole number from `low` to `high` that `word` is.
+  /// `word` as an integer from `low` to `high`.
   template <class Integer>
   Integer integer(std::string_view word, Integer low, Integer high, const char* wanted) const {
     Integer value = 0;
@@ -114,7 +113,7 @@ class Text {
     while (at_ < text_.size() && !blank(text_[at_])) ++at_;
     return text_.substr(first, at_ - first);
   }
-  /// What is left of the line, without its end.
+  /// The rest of the line, without its end-of-line characters.
   std::string_view rest_of_line() {
     const std::size_t first = at_;
     while (at_ < text_.size() && text_[at_] != '\n') ++at_;
@@ -122,7 +121,7 @@ class Text {
     if (rest.ends_with('\r')) rest.remove_suffix(1);
     return rest;
   }
-  /// Whether there is another line; goes to its beginning, the first time to that of the first.
+  /// Moves to the beginning of the next line, at the first call of the first line; false at the end of the text.
   bool next_line() {
     if (begun_) {
       rest_of_line();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/assembly/stress_recovery.hpp>
+#include <stickslip/body/stress_recovery.hpp>
 #include <stickslip/io/new_file.hpp>
 #include <stickslip/problem.hpp>
 
@@ -40,7 +40,7 @@ inline std::string base64(std::span<const unsigned char> bytes) {
   return text;
 }
 
-// A VTK data array in binary form: the byte count, then the numbers.
+// Writes a VTK data array in binary form: the byte count, then the numbers.
 template <class T>
 void write_array(std::ostream& out, const char* type, const std::string& name, int components,
                  const std::vector<T>& values) {
@@ -52,7 +52,7 @@ void write_array(std::ostream& out, const char* type, const std::string& name, i
       << "\" format=\"binary\">" << base64(data) << "</DataArray>\n";
 }
 
-// Text as it stands between the quotation marks of an attribute.
+// The text escaped for an attribute value in quotation marks.
 inline std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -85,7 +85,7 @@ inline std::string escaped(std::string_view text) {
   return out;
 }
 
-// Whether XML can say the text at all: UTF-8 of its characters, which have nearly no control characters.
+// Whether the text is valid in XML: UTF-8, below U+0020 only tab, line feed and carriage return.
 inline bool is_xml_text(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto at = [&](std::size_t k) -> std::uint32_t {
@@ -117,11 +117,11 @@ inline bool is_xml_text(std::string_view text) {
 
 namespace detail {
 
-// Of a body at the displacements u; `contacts` is empty, or all of them.
+// Writes a body at the displacements u [length]; `contacts` is empty, or all of them.
 template <class Body>
 void write_vtu(const std::filesystem::path& path, const Body& body, const Field& u, bool with_contact,
                const std::vector<const ContactRecord<Body::dim>*>& contacts) {
-  using Shape = typename Body::Shape;
+  using TensorPattern = typename Body::TensorPattern;
   static_assert(std::endian::native == std::endian::little, "the file says that its numbers are little-endian");
   constexpr int dim = Body::dim;
   constexpr bool plastic = requires(typename Body::State s) {
@@ -153,10 +153,10 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
   recovery.update(body, u);
   body.visit_points(u, [&](Index cell, int point, const auto&, const auto& state, Real weight) {
     const auto e = static_cast<std::size_t>(cell);
-    const Tensor<Real, Shape>& cauchy = recovery.stress(cell, point);
+    const Tensor<Real, TensorPattern>& cauchy = recovery.stress(cell, point);
     static constexpr std::array<std::pair<int, int>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
     for (std::size_t k = 0; k < order.size(); ++k)
-      if (Shape::couples(order[k].first, order[k].second))
+      if (TensorPattern::couples(order[k].first, order[k].second))
         stress[6 * e + k] += weight * cauchy(order[k].first, order[k].second);
     mises[e] += weight * von_mises(cauchy);
     pressure[e] -= weight * trace(cauchy) / 3;
@@ -195,7 +195,7 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
           force[3 * n + i] += state.force[static_cast<int>(i)];
           traction[3 * n + i] += state.force[static_cast<int>(i)] / areas[k];
         }
-        slip[n] = std::max(slip[n], state.slip);
+        slip[n] = std::max(slip[n], state.accumulated_slip);
         gap[n] = std::min(gap[n], state.gap);
       }
     }
@@ -219,11 +219,11 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
 }  // namespace detail
 
 /// Writes the converged state as a VTK unstructured grid: reference coordinates; at nodes displacement, contact force
-/// [force], contact traction [force / reference area], slip and gap [length] (not a number where no tool is near the
-/// side); in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure,
-/// the estimated error of the mesh in the stress (theory.md, eq. 6.16) and, where the material has it, plastic strain.
-/// In axisymmetry x is the radius, y the axis and z the hoop direction. Throws std::runtime_error, naming the file and
-/// the reason, when it cannot be written: the old file is then as it was (NewFile).
+/// [force], contact traction [force / reference area], accumulated slip and gap [length] (NaN at nodes of no contact);
+/// in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure, the
+/// estimated error of the mesh in the stress (theory.md, eq. 6.20) and, where the material has it, plastic strain. In
+/// axisymmetry x is the radius, y the axis and z the hoop direction. Throws std::runtime_error, naming the file and the
+/// reason, if it cannot be written; the old file is then unchanged (NewFile).
 template <class Model>
 void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
   std::vector<const ContactRecord<Scene<Model>::dim>*> contacts;
@@ -232,11 +232,11 @@ void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
 }
 
 /// A series of states over time: `DIR/NAME_0000.vtu` and so on, with `DIR/NAME.pvd` to open in ParaView. The collection
-/// is rewritten after every state, so that an interrupted run leaves a readable one.
+/// is rewritten after every state, so that an interrupted run leaves a valid one.
 class VtuSeries {
  public:
-  /// Makes the folder. `name` is the beginning of names of files and stands in XML: UTF-8 without a slash. Throws
-  /// std::invalid_argument if it is not, std::runtime_error, naming the folder, if that cannot be made.
+  /// Creates the folder. `name` is the prefix of the file names and stands in XML: UTF-8 without a slash. Throws
+  /// std::invalid_argument if it is not, std::runtime_error, naming the folder, if the folder cannot be created.
   VtuSeries(std::filesystem::path directory, std::string name)
       : directory_(std::move(directory)), name_(std::move(name)) {
     if (name_.find('/') != name_.npos || !detail::is_xml_text(name_))
@@ -247,8 +247,8 @@ class VtuSeries {
     if (error) throw std::runtime_error("cannot write " + directory_.string() + ": " + error.message());
   }
 
-  /// The converged state, as the next of the series. Throws std::runtime_error, naming the file and the reason, if it
-  /// cannot be written; the next one then takes its place.
+  /// Writes the converged state as the next of the series. Throws std::runtime_error, naming the file and the reason,
+  /// if it cannot be written; the next call then reuses its number.
   template <class Model>
   void write(const Scene<Model>& problem) {
     write_vtu(directory_ / file(times_.size()), problem);
@@ -264,8 +264,8 @@ class VtuSeries {
     collection.place();
   }
 
-  /// The states so far, to be kept with a march (io::save): a restarted run writes those again that came later.
-  void serialize(Archive& archive) { archive.any_length("series, times", times_); }
+  /// The times of the states so far, for io::save: a restarted run overwrites the later states.
+  void serialize(Archive& archive) { archive.resizable("series, times", times_); }
 
  private:
   std::string file(std::size_t k) const {

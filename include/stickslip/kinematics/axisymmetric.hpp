@@ -6,16 +6,16 @@
 
 namespace stickslip {
 
-/// Axisymmetry without torsion: coordinate 0 is the radius, coordinate 1 the axis. The hoop stretch is r/R. All forces
-/// are those of the full turn.
+/// Axisymmetry without torsion: coordinate 0 is the radius, coordinate 1 the axis. The hoop stretch is r/R. Forces are
+/// those of the full circumference.
 struct Axisymmetric {
   using Role = role::Kinematics;
-  using Shape = Planar;
+  using TensorPattern = Planar;
   static constexpr int dim = 2;
   static constexpr bool hoop = true;
 
-  /// Circumference at reference point X: volume of the full turn per area of the section [length].
-  Real measure(const Vec<Real, 2>& X) const { return 2 * pi * X[0]; }
+  /// Circumference at reference point X: volume of the full circumference per area of the section [length].
+  Real volume_factor(const Vec<Real, 2>& X) const { return 2 * pi * X[0]; }
 };
 
 }  // namespace stickslip

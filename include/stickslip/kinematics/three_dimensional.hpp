@@ -6,15 +6,15 @@
 
 namespace stickslip {
 
-/// Three dimensions: the mesh fills the space, nothing is assumed of the deformation gradient.
+/// Three dimensions: the deformation gradient has all nine components.
 struct ThreeDimensional {
   using Role = role::Kinematics;
-  using Shape = Spatial;
+  using TensorPattern = Spatial;
   static constexpr int dim = 3;
   static constexpr bool hoop = false;
 
-  /// Volume per volume of the mesh: one.
-  Real measure(const Vec<Real, 3>&) const { return 1; }
+  /// Volume per volume of the mesh: one [-].
+  Real volume_factor(const Vec<Real, 3>&) const { return 1; }
 };
 
 }  // namespace stickslip

@@ -26,13 +26,13 @@ namespace stickslip {
 
 namespace detail {
 
-/// New number of every equation, and the half bandwidth that it leads to.
+/// New number of every equation, and the resulting half bandwidth.
 struct BandOrdering {
   std::vector<Index> place;
   Index half_bandwidth = 0;
 };
 
-/// The better of the given numbering and reverse Cuthill-McKee.
+/// The given numbering or reverse Cuthill-McKee, whichever has the smaller bandwidth.
 inline BandOrdering band_ordering(const SparseView& m) {
   const auto bandwidth = [&](const std::vector<Index>& place) {
     Index widest = 0;
@@ -63,7 +63,7 @@ inline BandOrdering band_ordering(const SparseView& m) {
   return reduced.half_bandwidth < natural.half_bandwidth ? reduced : natural;
 }
 
-/// LAPACK's LU of a band with partial pivoting.
+/// LAPACK's banded LU with partial pivoting.
 class BandLu {
  public:
   void resize(Index n, Index half_bandwidth) {
@@ -102,8 +102,8 @@ class BandLu {
 
 }  // namespace detail
 
-/// LAPACK's band Cholesky in a numbering that keeps the band narrow: the fastest choice on thin meshes. An indefinite
-/// matrix falls back to the pivoted band LU. Link stickslip::banded.
+/// LAPACK's banded Cholesky in a numbering of small bandwidth: the fastest solver on thin meshes. An indefinite matrix
+/// falls back to the banded LU with pivoting. Link stickslip::banded.
 class BandedCholesky {
  public:
   using Role = role::LinearSolver;
@@ -158,15 +158,15 @@ class BandedCholesky {
     return info == 0;
   }
 
-  /// Of the last factorisation: as many as the matrix has negative eigenvalues.
+  /// Negative pivots of the last factorisation, as many as the matrix has negative eigenvalues.
   Index negative_pivots() const { return negative_pivots_; }
   Index half_bandwidth() const { return k_; }
-  /// Memory of the band that is factorised in place, and of the other one once a matrix was indefinite.
+  /// Memory of the Cholesky factor, and of the LU once a matrix was indefinite [bytes].
   std::size_t factor_bytes() const { return band_.size() * sizeof(Real) + lu_.bytes(); }
 
  private:
-  // The LU's signs do not tell: those of a band L D L^T without pivoting do, whose L is made in the band that Cholesky
-  // has given up.
+  // The signs of the LU's pivots do not give the number of negative eigenvalues; those of a banded L D L^T without
+  // pivoting do. It overwrites the band of the failed Cholesky.
   Index count_negative(const SparseView& matrix) {
     fill(matrix);
     const auto k = static_cast<std::size_t>(k_), n = static_cast<std::size_t>(n_);
@@ -205,7 +205,7 @@ class BandedCholesky {
   bool indefinite_ = false, lu_ready_ = false;
 };
 
-/// LAPACK's pivoted band LU in a numbering that keeps the band narrow. Takes every system. Link stickslip::banded.
+/// LAPACK's banded LU with pivoting, in a numbering of small bandwidth. Accepts every system. Link stickslip::banded.
 class BandedLu {
  public:
   using Role = role::LinearSolver;
@@ -236,7 +236,7 @@ class BandedLu {
   }
 
   Index half_bandwidth() const { return order_.half_bandwidth; }
-  /// Memory of the band that is factorised in place, room for pivots included.
+  /// Memory of the factor, including the pivots [bytes].
   std::size_t factor_bytes() const { return lu_.bytes(); }
 
  private:
@@ -245,7 +245,7 @@ class BandedLu {
   std::vector<Real> permuted_;
 };
 
-/// Band Cholesky for symmetric systems, band LU for the others.
+/// Banded Cholesky for symmetric systems, banded LU for the others.
 struct Banded {
   using Role = role::LinearSolver;
   template <Symmetry system>

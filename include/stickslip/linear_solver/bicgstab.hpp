@@ -13,9 +13,9 @@
 
 namespace stickslip {
 
-/// Eigen's stabilised biconjugate gradients with its incomplete LU, which is tightened for good where they do not
-/// converge with a loose one. Takes every system, and refuses what does not converge even so: the incomplete factor
-/// does not pivot.
+/// Eigen's BiCGSTAB with its incomplete LU factor; if that does not converge with a loose factor, a tighter one is used
+/// until the next `analyze`. Accepts every system; `solve` fails if the tight factor does not converge either, which
+/// may happen because the incomplete factor does not pivot.
 class Bicgstab {
  public:
   using Role = role::LinearSolver;
@@ -30,7 +30,7 @@ class Bicgstab {
     tighten(false);
   }
 
-  /// `done` says that there is a preconditioner.
+  /// `done` means that a preconditioner exists.
   Factorization factorize(const SparseView& matrix) {
     matrix_ = matrix;
     return precondition() ? Factorization::done : Factorization::failed;
@@ -47,15 +47,15 @@ class Bicgstab {
   void serialize(Archive& archive) {
     bool tight = tight_;
     archive("tight incomplete factor", tight);
-    if (archive.gives()) tighten(tight);
+    if (archive.loading()) tighten(tight);
   }
 
-  /// Of the last solution.
+  /// Iterations of the last `solve`.
   Index iterations() const { return iterations_; }
 
  private:
-  // Near incompressibility and indefinite matrices need the tight factor, which is not much less than a whole one; the
-  // loose one is made in a fraction of its time.
+  // Nearly incompressible and indefinite systems need the tight factor, which is not much smaller than a complete one;
+  // the loose factor takes a fraction of its time.
   void tighten(bool tight) {
     tight_ = tight;
     solver_.preconditioner().setDroptol(tight ? 1e-4 : 1e-2);
@@ -78,7 +78,7 @@ class Bicgstab {
     return solver_.info() == Eigen::Success;
   }
 
-  // Eigen asks for the outcome before there is one.
+  // Eigen reads the status before the first factorisation.
   struct IncompleteLu : Eigen::IncompleteLUT<Real, Index> {
     IncompleteLu() { m_info = Eigen::Success; }
   };

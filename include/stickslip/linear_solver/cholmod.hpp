@@ -14,9 +14,9 @@
 
 namespace stickslip {
 
-/// CHOLMOD's sparse Cholesky (supernodal or simplicial as it finds best). An indefinite matrix falls back to its
-/// simplicial L D L^T, which does not pivot: the solution is then checked against the matrix and refined, and refused
-/// if it stays wrong. Link stickslip::cholmod; note CHOLMOD's licence (LGPL, the supernodal part GPL).
+/// CHOLMOD's sparse Cholesky (supernodal or simplicial, at CHOLMOD's choice). An indefinite matrix falls back to its
+/// simplicial L D L^T, which does not pivot: `solve` then refines the solution and fails if its residual stays large.
+/// Link stickslip::cholmod; note CHOLMOD's licence (LGPL, the supernodal part GPL).
 class Cholmod {
  public:
   using Role = role::LinearSolver;
@@ -79,9 +79,9 @@ class Cholmod {
     return refinement_.solve(matrix_, right_hand_side, solution,
                              [this](const Real* b, Real* x) { return backsolve(b, x); });
   }
-  /// Of the last factorisation: as many as the matrix has negative eigenvalues.
+  /// Negative pivots of the last factorisation, as many as the matrix has negative eigenvalues.
   Index negative_pivots() const { return indefinite_ ? negative(*indefinite_factor_) : 0; }
-  /// Memory of the last factor, its indices included.
+  /// Memory of the last factor, including its indices [bytes].
   std::size_t factor_bytes() const {
     const cholmod_factor& f = indefinite_ ? *indefinite_factor_ : *factor_;
     return f.is_super ? f.xsize * sizeof(Real) + f.ssize * sizeof(Index) : f.nzmax * (sizeof(Real) + sizeof(Index));
@@ -92,7 +92,7 @@ class Cholmod {
     cholmod_sparse a{};
     a.nrow = a.ncol = static_cast<std::size_t>(m.size);
     a.nzmax = static_cast<std::size_t>(m.nonzeros());
-    // CHOLMOD reads them only, but takes no pointers to const.
+    // CHOLMOD only reads them, but takes no pointers to const.
     a.p = const_cast<Index*>(m.column_start);
     a.i = const_cast<Index*>(m.row);
     a.x = const_cast<Real*>(m.values);
@@ -105,12 +105,12 @@ class Cholmod {
     return a;
   }
 
-  // Also where a factor has more entries than its integers count.
+  // Throws also if a factor has more entries than its integers can count.
   void enough_memory() const {
     if (common_->status == CHOLMOD_OUT_OF_MEMORY || common_->status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
   }
 
-  // A supernodal factor exists for positive matrices alone; a simplicial L D L^T shows its signs on the diagonal.
+  // A supernodal factor exists only for positive definite matrices; a simplicial L D L^T has the signs on its diagonal.
   static bool positive(const cholmod_factor& f) {
     if (f.minor < f.n) return false;
     if (f.is_super || f.is_ll) return true;

@@ -11,7 +11,7 @@
 namespace stickslip {
 
 /// Conjugate gradients with Eigen's incomplete Cholesky factor: memory and time of a large solid grow little faster
-/// than its unknowns. For positive definite systems alone: a direction of negative curvature refuses the solution.
+/// than its unknowns. For positive definite systems only: `solve` fails at a direction of negative curvature.
 class ConjugateGradients {
  public:
   using Role = role::LinearSolver;
@@ -30,9 +30,9 @@ class ConjugateGradients {
     analyze_pattern(preconditioner_, pattern);
   }
 
-  /// `done` says that there is a preconditioner: only `solve` finds out whether the matrix is definite.
+  /// `done` means that a preconditioner exists: only `solve` detects an indefinite matrix.
   Factorization factorize(const SparseView& matrix) {
-    if (!complete_diagonal_) return Factorization::failed;  // Eigen would take another entry for it
+    if (!complete_diagonal_) return Factorization::failed;  // Eigen would take another entry for the diagonal one
     matrix_ = matrix;
     preconditioner_.factorize(eigen_map(matrix));
     return preconditioner_.info() == Eigen::Success ? Factorization::done : Factorization::failed;
@@ -44,7 +44,7 @@ class ConjugateGradients {
         matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); }, limits.tolerance);
   }
 
-  /// Of the last solution.
+  /// Iterations of the last `solve`.
   Index iterations() const { return iterations_; }
 
  private:
@@ -55,7 +55,7 @@ class ConjugateGradients {
     residual_ = Eigen::Map<const Field>(right_hand_side, matrix_.size);
     direction_.setZero();
     const Real aim = limits.tolerance * residual_.norm();
-    Real energy = 1;  // any but zero: the first direction has none before it
+    Real energy = 1;  // any nonzero value: the first direction has no predecessor
     while (!(residual_.norm() <= aim)) {
       if (iterations_++ == limits.iterations) return false;
       preconditioned_ = preconditioner_.solve(residual_);
@@ -71,8 +71,7 @@ class ConjugateGradients {
     return true;
   }
 
-  // Without an ordering: it keeps no more entries than the matrix has, and neighbours in a mesh are good neighbours
-  // here.
+  // Without reordering: the factor keeps no more entries than the matrix has, and the numbering of a mesh suits it.
   Eigen::IncompleteCholesky<Real, Eigen::Lower, Eigen::NaturalOrdering<Index>> preconditioner_;
   SparseView matrix_{};
   Field residual_, preconditioned_, direction_, image_;

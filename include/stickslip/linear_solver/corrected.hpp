@@ -2,14 +2,14 @@
 #pragma once
 
 #include <stickslip/base/archive.hpp>
-#include <stickslip/base/minimal_residual.hpp>
+#include <stickslip/base/orthodir.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
 namespace stickslip {
 
-/// A symmetric direct solver made a solver of the exact, non-symmetric tangent of friction. The matrix is stored and
-/// factorised as a symmetric one, K_s, without the couplings C of the sliding nodes; (1 + C K_s^-1) y = b, x = K_s^-1
-/// y, is solved by minimal residuals on its factor (theory.md, section 6.5). An iteration takes one back-substitution.
+/// Solves the exact, non-symmetric tangent of friction with a symmetric direct solver. The matrix is stored and
+/// factorised as a symmetric one, K_s, without the couplings C of the slipping nodes; (1 + C K_s^-1) y = b, x = K_s^-1
+/// y, is solved by minimal residuals (Orthodir; theory.md, section 6.5). An iteration takes one back-substitution.
 template <class Symmetric>
 class Corrected {
   static_assert(LinearSolverPolicy<Symmetric> && Symmetric::storage == Symmetry::symmetric,
@@ -22,7 +22,7 @@ class Corrected {
   static constexpr bool corrects = true;
   static constexpr bool direct = is_direct<Symmetric>;
   static constexpr Real tolerance = 1e-6;  ///< of the relative residual
-  static constexpr Index most = 60;        ///< iterations of one solution
+  static constexpr Index most = 60;        ///< largest number of iterations of a solution
 
   void analyze(const SparseView& pattern) {
     solver_.analyze(pattern);
@@ -56,14 +56,14 @@ class Corrected {
   void serialize(Archive& archive) requires requires(Symmetric& s) { s.serialize(archive); }
   { solver_.serialize(archive); }
 
-  /// Iterations of all solutions so far: back-substitutions.
+  /// Iterations of all solutions so far, one back-substitution each.
   Index inner_iterations() const { return inner_iterations_; }
-  /// A solution of the symmetric part alone: what digits that has the whole has as well.
+  /// Solves with the symmetric part alone; the corrected solution has as many accurate digits.
   bool probe(const Real* right_hand_side, Real* solution) { return solver_.solve(right_hand_side, solution); }
-  /// Of the symmetric part.
+  /// Negative pivots of the symmetric part.
   Index negative_pivots() const requires requires(const Symmetric& s) { s.negative_pivots(); }
   { return solver_.negative_pivots(); }
-  /// Memory of the symmetric factor.
+  /// Memory of the symmetric factor [bytes].
   std::size_t factor_bytes() const requires requires(const Symmetric& s) { s.factor_bytes(); }
   { return solver_.factor_bytes(); }
 
@@ -83,7 +83,7 @@ class Corrected {
   Symmetric solver_;
   NodeBlocks corrections_{};
   Index size_ = 0, inner_iterations_ = 0;
-  MinimalResidual krylov_;
+  Orthodir krylov_;
 };
 
 }  // namespace stickslip

@@ -8,7 +8,7 @@
 
 namespace stickslip {
 
-/// Eigen's L D L^T for symmetric systems, its LU for the others: needs nothing but Eigen and takes every model.
+/// Eigen's L D L^T for symmetric systems, its LU for the others: needs only Eigen and accepts every model.
 struct EigenDirect {
   using Role = role::LinearSolver;
   template <Symmetry system>

@@ -8,8 +8,8 @@
 
 namespace stickslip {
 
-/// Preconditioned conjugate gradients for symmetric systems, biconjugate ones for the others: for solids too large for
-/// a factor. Needs nothing but Eigen.
+/// Preconditioned conjugate gradients for symmetric systems, BiCGSTAB for the others: for solids too large to
+/// factorise. Needs only Eigen.
 struct EigenIterative {
   using Role = role::LinearSolver;
   template <Symmetry system>

@@ -11,9 +11,9 @@
 
 namespace stickslip {
 
-/// Eigen's simplicial L D L^T with approximate minimum degree. It does not pivot: of an indefinite matrix the solution
-/// is checked and refined, and refused if it stays wrong; a zero pivot fails. Use it as `EigenLdlt`; a template, so
-/// that only a program that uses it compiles it.
+/// Eigen's simplicial L D L^T with approximate minimum degree. It does not pivot: for an indefinite matrix `solve`
+/// refines the solution and fails if its residual stays large; a zero pivot fails. Use it as `EigenLdlt`; a template,
+/// so that only programs that use it compile it.
 template <class Matrix>
 class EigenLdltOf {
  public:
@@ -38,9 +38,9 @@ class EigenLdltOf {
     return refinement_.solve(matrix_, right_hand_side, solution,
                              [this](const Real* b, Real* x) { return backsolve(b, x); });
   }
-  /// Of the last factorisation: as many as the matrix has negative eigenvalues.
+  /// Negative pivots of the last factorisation, as many as the matrix has negative eigenvalues.
   Index negative_pivots() const { return static_cast<Index>((solver_.vectorD().array() < 0).count()); }
-  /// Memory of the last factor, its indices included.
+  /// Memory of the last factor, including its indices [bytes].
   std::size_t factor_bytes() const {
     const auto entries = static_cast<std::size_t>(solver_.matrixL().nestedExpression().nonZeros());
     return entries * (sizeof(Real) + sizeof(Index)) + static_cast<std::size_t>(solver_.rows()) * sizeof(Real);

@@ -10,8 +10,8 @@
 
 namespace stickslip {
 
-/// Eigen's supernodal LU with partial pivoting and column approximate minimum degree. Takes every system. Use it as
-/// `EigenLu`; a template, so that only a program that uses it compiles it.
+/// Eigen's supernodal LU with partial pivoting and column approximate minimum degree. Accepts every system. Use it as
+/// `EigenLu`; a template, so that only programs that use it compile it.
 template <class Matrix>
 class EigenLuOf {
  public:
@@ -30,7 +30,7 @@ class EigenLuOf {
     Eigen::Map<Field>(solution, n) = solver_.solve(Eigen::Map<const Field>(right_hand_side, n));
     return solver_.info() == Eigen::Success;
   }
-  /// Memory of the last factor, its indices included.
+  /// Memory of the last factor, including its indices [bytes].
   std::size_t factor_bytes() const {
     return static_cast<std::size_t>(solver_.nnzL() + solver_.nnzU()) * (sizeof(Real) + sizeof(Index));
   }

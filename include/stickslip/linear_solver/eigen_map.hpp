@@ -9,7 +9,7 @@
 
 namespace stickslip {
 
-/// What Eigen's solvers call a matrix of ours.
+/// Eigen's type of a system matrix.
 using EigenMatrix = Eigen::SparseMatrix<Real, Eigen::ColMajor, Index>;
 using EigenMap = Eigen::Map<const EigenMatrix>;
 
@@ -17,7 +17,7 @@ inline EigenMap eigen_map(const SparseView& m) {
   return {m.size, m.size, m.nonzeros(), m.column_start, m.row, m.values};
 }
 
-/// Hands the pattern alone to a solver or preconditioner of Eigen, which asks for values all the same.
+/// Analyses the pattern for a solver or preconditioner of Eigen, with zeros for the values that Eigen requires.
 template <class Solver>
 void analyze_pattern(Solver& solver, SparseView pattern) {
   const std::vector<Real> zeros(static_cast<std::size_t>(pattern.nonzeros()), 0.0);

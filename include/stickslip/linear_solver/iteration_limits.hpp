@@ -5,11 +5,11 @@
 
 namespace stickslip {
 
-/// When an iterative solver has arrived, and when it gives up. The default keeps Newton's convergence quadratic. For
-/// others derive a solver whose constructor sets its `limits`.
+/// Convergence criterion and iteration limit of an iterative solver. The default keeps Newton's convergence quadratic.
+/// For other values derive a solver whose constructor sets its `limits`.
 struct IterationLimits {
   Real tolerance = 1e-10;   ///< of the residual, relative to the right-hand side
-  Index iterations = 5000;  ///< at most
+  Index iterations = 5000;  ///< largest number
 };
 
 }  // namespace stickslip

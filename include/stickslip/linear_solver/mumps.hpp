@@ -15,7 +15,7 @@ namespace stickslip {
 
 namespace detail {
 
-/// Ends an instance of MUMPS and gives it back.
+/// Terminates an instance of MUMPS and deletes it.
 struct EndMumps {
   void operator()(DMUMPS_STRUC_C* mumps) const {
     mumps->job = -2;
@@ -28,7 +28,7 @@ using MumpsInstance = std::unique_ptr<DMUMPS_STRUC_C, EndMumps>;
 /// A new instance that prints nothing; null if MUMPS could not start.
 inline MumpsInstance start_mumps(Symmetry system) {
   auto mumps = std::make_unique<DMUMPS_STRUC_C>();
-  mumps->comm_fortran = -987654;  // MUMPS's name for the whole world, here of one process
+  mumps->comm_fortran = -987654;  // MUMPS's code for MPI_COMM_WORLD, here one process
   mumps->par = 1;
   mumps->sym = system == Symmetry::symmetric ? 2 : 0;
   mumps->job = -1;
@@ -37,16 +37,16 @@ inline MumpsInstance start_mumps(Symmetry system) {
   std::fill_n(mumps->icntl, 3, -1);  // no stream for errors, diagnostics and statistics
   mumps->icntl[3] = 0;
   mumps->icntl[5] = 0;   // no permutation by values: the analysis sees the pattern alone
-  mumps->icntl[11] = 1;  // nor an ordering that asks for them
+  mumps->icntl[11] = 1;  // no ordering that needs values
   mumps->icntl[12] = 1;  // count the negative pivots of the last front as well
   return MumpsInstance(mumps.release());
 }
 
 }  // namespace detail
 
-/// MUMPS's multifrontal solver, sequential: L D L^T with pivots of one and two rows for symmetric systems, definite or
-/// not; LU with threshold pivoting for general ones. Link stickslip::mumps; MUMPS is CeCILL-C. Two solvers may live at
-/// once, but not work at once in two threads.
+/// MUMPS's multifrontal solver, sequential: L D L^T with 1 x 1 and 2 x 2 pivots for symmetric systems, definite or not;
+/// LU with threshold pivoting for general ones. Link stickslip::mumps; MUMPS is CeCILL-C. Two solvers may exist at
+/// once, but must not run at once in two threads.
 template <Symmetry system>
 class MumpsSolver {
  public:
@@ -75,7 +75,7 @@ class MumpsSolver {
   Factorization factorize(const SparseView& matrix) {
     if (!mumps_) return Factorization::failed;
     mumps_->a = const_cast<Real*>(matrix.values);  // read only, but MUMPS takes no pointer to const
-    // Pivots put off for the sake of stability need more room than the analysis foresaw.
+    // Delayed pivots need more memory than the analysis estimated.
     bool done = run(2);
     for (int more = 0; !done && more < 8 && (mumps_->infog[0] == -8 || mumps_->infog[0] == -9); ++more) {
       mumps_->icntl[13] *= 2;
@@ -93,11 +93,11 @@ class MumpsSolver {
     return run(3);
   }
 
-  /// Of the last factorisation of a symmetric system: as many as the matrix has negative eigenvalues.
+  /// Negative pivots of the last factorisation, as many as the matrix has negative eigenvalues.
   Index negative_pivots() const requires(system == Symmetry::symmetric) { return mumps_->infog[11]; }
-  /// Memory of the last factor, its indices included.
+  /// Memory of the last factor, including its indices [bytes].
   std::size_t factor_bytes() const {
-    const auto count = [&](int k) {  // MUMPS's INFOG(k + 1), negative if it stands for millions
+    const auto count = [&](int k) {  // MUMPS's INFOG(k + 1), in millions if negative
       const Real value = mumps_->infog[k];
       return static_cast<std::size_t>(value < 0 ? -1e6 * value : value);
     };
@@ -110,13 +110,13 @@ class MumpsSolver {
     mumps_->job = job;
     dmumps_c(mumps_.get());
     const MUMPS_INT status = mumps_->infog[0];
-    // What could not be allocated (users' guide, error codes): reals of the analysis, integers, work space.
+    // Failed allocations (users' guide, error codes): reals of the analysis, integers, work space.
     if (status == -5 || status == -7 || status == -13) throw std::bad_alloc();
     return status >= 0;
   }
 
   std::vector<MUMPS_INT> row_, column_;  // counted from 1
-  detail::MumpsInstance mumps_;          // ends before the arrays that it points to
+  detail::MumpsInstance mumps_;          // destroyed before the arrays that it points to
 };
 
 using MumpsLdlt = MumpsSolver<Symmetry::symmetric>;

@@ -4,16 +4,16 @@
 #include <mutex>
 
 extern "C" {
-// OpenBLAS's, where the program has it.
+// Functions of OpenBLAS; null where the program does not link it.
 [[gnu::weak]] int openblas_get_num_threads();
 [[gnu::weak]] void openblas_set_num_threads(int);
 }
 
 namespace stickslip {
 
-/// While one lives, OpenBLAS works with one thread, so that the bits of a solution do not depend on how many it has: it
-/// shares sums out among them. The number is the process's own, hence the count of those who hold it at one. Define
-/// STICKSLIP_BLAS_THREADS to leave the threads to the library: large systems in space are factorised sooner then.
+/// Limits OpenBLAS to one thread during its lifetime: OpenBLAS divides sums among its threads, so the bits of a
+/// solution would depend on their number. That number is global to the process, hence the reference count. Define
+/// STICKSLIP_BLAS_THREADS to leave the threads to OpenBLAS: large three-dimensional systems are then factorised faster.
 class OneBlasThread {
  public:
 #ifdef STICKSLIP_BLAS_THREADS

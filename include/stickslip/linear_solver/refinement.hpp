@@ -9,9 +9,9 @@
 
 namespace stickslip {
 
-/// Iterative refinement where a solution is not to be trusted as it comes: from the factor of an indefinite matrix that
-/// was made without pivoting, or from iterations that follow their residual by recurrence. It is held against the
-/// matrix, improved, and refused if it stays wrong.
+/// Iterative refinement of solutions of uncertain accuracy: from the factor of an indefinite matrix made without
+/// pivoting, or from iterations that update their residual by recurrence. Computes the true residual, improves the
+/// solution, and fails if the residual stays large.
 class Refinement {
  public:
   void resize(Index size) {
@@ -19,8 +19,8 @@ class Refinement {
     correction_.setZero(size);
   }
 
-  /// Solves A x = b to the relative residual `aim`, if that can be had, by `backsolve(b, x)`, which returns false when
-  /// it cannot. `matrix` holds A, or its lower triangle.
+  /// Solves A x = b to the relative residual `aim` if possible, else to 1e-8 or round-off, by `backsolve(b, x)`; false
+  /// if that fails or the residual stays larger. `matrix` holds A, or its lower triangle.
   template <class Backsolve>
   bool solve(const SparseView& matrix, const Real* right_hand_side, Real* solution, Backsolve&& backsolve,
              Real aim = 1e-12) {
@@ -33,8 +33,8 @@ class Refinement {
       x += correction_;
     }
     if (relative_residual(matrix, b, x) <= 1e-8) return true;
-    // A solution that is large for its right-hand side leaves more by round-off of the products alone. That is the
-    // matrix's, which others judge, and not the factor's.
+    // A solution that is large for its right-hand side leaves a larger residual by round-off of the products alone.
+    // This is a property of the matrix, which other checks judge, and not of the factor.
     Real largest = 0;
     for (Index k = 0; k < matrix.nonzeros(); ++k) largest = std::max(largest, std::abs(matrix.values[k]));
     return residual_.norm() <= 64 * std::numeric_limits<Real>::epsilon() * largest * x.norm();

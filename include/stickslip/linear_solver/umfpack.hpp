@@ -13,7 +13,7 @@
 
 namespace stickslip {
 
-/// UMFPACK's unsymmetric multifrontal LU. Takes every system. Link stickslip::umfpack; UMFPACK is GPL.
+/// UMFPACK's unsymmetric multifrontal LU. Accepts every system. Link stickslip::umfpack; UMFPACK is GPL.
 class Umfpack {
  public:
   using Role = role::LinearSolver;
@@ -55,16 +55,16 @@ class Umfpack {
                                  control_.data(), nullptr, integers_.data(), reals_.data()) == UMFPACK_OK;
       });
     };
-    // In plastic flow's matrices the pivots that UMFPACK takes for good enough can grow to more than refinement mends.
+    // In plastic flow UMFPACK's default threshold may allow a pivot growth that refinement cannot correct.
     return solved() || (factorize(1) && solved());
   }
-  /// Memory of the last factor, its indices included.
+  /// Memory of the last factor, including its indices [bytes].
   std::size_t factor_bytes() const {
     return static_cast<std::size_t>(info_[UMFPACK_NUMERIC_SIZE] * info_[UMFPACK_SIZE_OF_UNIT]);
   }
 
  private:
-  // With the largest pivot of a column for 1, one that is at least that part of it below.
+  // Accepts pivots of at least `pivot_tolerance` times the largest entry of the column.
   bool factorize(Real pivot_tolerance) {
     if (!symbolic_) return false;
     control_[UMFPACK_PIVOT_TOLERANCE] = pivot_tolerance;
@@ -74,7 +74,7 @@ class Umfpack {
     enough_memory(status);
     return status == UMFPACK_OK;
   }
-  // Also where a factor has more entries than its integers count.
+  // Throws also if a factor has more entries than its integers can count.
   static void enough_memory(int status) {
     if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
   }

@@ -14,18 +14,18 @@ namespace stickslip {
 /// A measured point of a flow curve.
 struct FlowPoint {
   Real strain = 0;  ///< accumulated plastic strain [-]
-  Real stress = 0;  ///< flow stress there [stress]
+  Real stress = 0;  ///< flow stress at that strain [stress]
 };
 
-/// What keeps points from being a flow curve.
+/// Why a table of points is not a flow curve.
 struct FlowPointFault {
-  std::optional<std::size_t> point;  ///< the one that shows it, from 0; none: it is the table as a whole
+  std::optional<std::size_t> point;  ///< index of the faulty point, from 0; none: the whole table
   std::string what;
 };
 
-/// The first fault of a table; none if it is a flow curve: four points at least, of ascending plastic strain, the first
-/// at zero, and of positive stress. Beyond 1e30 either way of a strain, or 1e100 of a stress in any unit, slopes and
-/// work would leave what a number can hold: no metal does.
+/// The first fault of a table; none for a flow curve: at least four points, ascending plastic strains from zero,
+/// positive stresses. Strains above 1e30, strain increments below 1e-30 and stresses outside 1e-100 to 1e100 are
+/// faults, because slopes and work would overflow.
 inline std::optional<FlowPointFault> fault_of(const std::vector<FlowPoint>& points) {
   if (points.size() < 4) return FlowPointFault{{}, "the table needs at least four points"};
   if (points[0].strain != 0) return FlowPointFault{0, "the first point must lie at zero plastic strain"};

@@ -18,7 +18,7 @@ struct PerfectPlasticity {
   FlowStress<S> flow(const S&) const {
     return {S(yield), S(0)};
   }
-  /// Plastic work per reference volume up to p: the integral of the flow stress.
+  /// Plastic work per reference volume up to p, the integral of the flow stress [stress].
   Real work(Real p) const { return yield * p; }
   void validate() const { require::positive(yield, "perfect plasticity: the yield stress"); }
 };
@@ -33,7 +33,7 @@ struct LinearHardening {
   FlowStress<S> flow(const S& p) const {
     return {S(yield) + p * modulus, S(modulus)};
   }
-  /// Plastic work per reference volume up to p: the integral of the flow stress.
+  /// Plastic work per reference volume up to p, the integral of the flow stress [stress].
   Real work(Real p) const { return p * (yield + 0.5 * modulus * p); }
   void validate() const {
     require::positive(yield, "linear hardening: the yield stress");
@@ -41,7 +41,7 @@ struct LinearHardening {
   }
 };
 
-/// Swift's power law, sigma(p) = strength (offset + p)^exponent. With a small offset its start is almost vertical.
+/// Swift's power law, sigma(p) = strength (offset + p)^exponent. A small offset makes the initial slope very steep.
 struct PowerHardening {
   using Role = role::Hardening;
   Real strength = 0;  ///< [stress]
@@ -55,7 +55,7 @@ struct PowerHardening {
     const S value = S(strength) * pow(base, exponent);
     return {value, S(exponent) * value / base};
   }
-  /// Plastic work per reference volume up to p: the integral of the flow stress.
+  /// Plastic work per reference volume up to p, the integral of the flow stress [stress].
   Real work(Real p) const {
     return strength / (exponent + 1) * (std::pow(offset + p, exponent + 1) - std::pow(offset, exponent + 1));
   }
@@ -68,17 +68,17 @@ struct PowerHardening {
       throw std::invalid_argument("power hardening: the exponent must lie in (0, 1]");
   }
 };
-/// The power law by the name of its author (Swift 1952).
+/// The power law under the name of its author (Swift 1952).
 using SwiftHardening = PowerHardening;
 
 /// sigma(p) = saturation - (saturation - yield) exp(-rate p) + modulus p: Voce's hardening towards a saturation stress,
-/// by default without the linear part. A saturation stress below the yield stress softens.
+/// the linear part is zero by default. A saturation stress below the yield stress softens.
 struct VoceHardening {
   using Role = role::Hardening;
   Real yield = 0;       ///< initial flow stress [stress]
-  Real saturation = 0;  ///< what the flow stress tends to without the linear part [stress]
+  Real saturation = 0;  ///< limit of the flow stress without the linear part [stress]
   Real rate = 0;        ///< 1 / plastic strain over which the distance to saturation falls to 1/e [-]
-  Real modulus = 0;     ///< of the linear part [stress]
+  Real modulus = 0;     ///< slope of the linear part [stress]
 
   template <class S>
   FlowStress<S> flow(const S& p) const {
@@ -87,7 +87,7 @@ struct VoceHardening {
     return {S(yield) - (saturation - yield) * gone + p * modulus,
             S((saturation - yield) * rate) * (S(1) + gone) + S(modulus)};
   }
-  /// Plastic work per reference volume up to p: the integral of the flow stress.
+  /// Plastic work per reference volume up to p, the integral of the flow stress [stress].
   Real work(Real p) const {
     return p * (saturation + 0.5 * modulus * p) + (saturation - yield) / rate * std::expm1(-rate * p);
   }

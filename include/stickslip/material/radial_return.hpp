@@ -10,25 +10,25 @@
 
 namespace stickslip {
 
-/// What the return to the yield surface of J2 plasticity leaves of a trial stress (theory.md, eq. 3.9-3.11).
+/// Result of the radial return of a J2 trial stress (theory.md, eq. 3.10-3.12).
 template <class S>
 struct RadialReturn {
-  S ratio = S(1);           ///< |dev tau| over that of the trial: the secant of the return [-]
-  S softening = S(0);       ///< what the consistent tangent loses along the trial deviator, over 2 shear [-]
+  S ratio = S(1);           ///< |dev tau| over its trial value [-]
+  S softening = S(0);       ///< reduction of the consistent tangent along the trial deviator, over 2 shear [-]
   S plastic_strain = S(0);  ///< accumulated, at the end of the step [-]
   bool flows = false;
-  Cause cause = Cause::none;
+  FailureCause cause = FailureCause::none;
 };
 
 namespace detail {
-/// Solves trial - 3 shear d - sigma(p + d) = 0 for d in (0, trial / (3 shear)): Newton's method inside a bracket that
-/// shrinks, for the power law starts almost vertically. One last step squares the error and carries the derivatives
-/// of a dual number.
+/// Solves trial - 3 shear d - sigma(p + d) = 0 for d in (0, trial / (3 shear)): Newton's method in a shrinking bracket,
+/// because the power law is very steep at its start. A last step squares the error and propagates the derivatives of a
+/// dual number.
 template <class S, class Hardening>
 auto return_map(const Hardening& hardening, const S& trial, const S& p, const FlowStress<S>& now, Real shear) {
   struct Return {
     S increment, slope;
-    Cause cause;
+    FailureCause cause;
   };
   const Real tolerance = 1e-9 * value_of(trial);  // the last step squares it
   Real low = 0, high = value_of(trial) / (3 * shear);
@@ -42,22 +42,23 @@ auto return_map(const Hardening& hardening, const S& trial, const S& p, const Fl
     if (!last && !(value_of(next) > low && value_of(next) < high)) next = S(0.5 * (low + high));
     d = next;
     flow = hardening.flow(S(p + d));
-    if (last) return Return{d, flow.slope, value_of(flow.value) > 0 ? Cause::none : Cause::material_failed};
+    if (last)
+      return Return{d, flow.slope, value_of(flow.value) > 0 ? FailureCause::none : FailureCause::material_failed};
   }
-  return Return{d, flow.slope, Cause::material_failed};
+  return Return{d, flow.slope, FailureCause::material_failed};
 }
 }  // namespace detail
 
-/// Returns a trial stress to the yield surface. `squared` is |dev tau / (2 shear)|^2 of the trial, `p` the plastic
-/// strain at the start of the step.
+/// Returns a trial stress to the yield surface; `cause` reports a failure. `squared` is |dev tau / (2 shear)|^2 of the
+/// trial [-], `p` the accumulated plastic strain at the start of the step [-], `shear` the shear modulus [stress].
 template <class S, class Hardening>
 RadialReturn<S> radial_return(const Hardening& hardening, const S& squared, const S& p, Real shear) {
   using std::sqrt;
   RadialReturn<S> out;
   out.plastic_strain = p;
   const FlowStress<S> now = hardening.flow(p);
-  if (!(value_of(now.value) > 0)) {  // softened away: no stress follows
-    out.cause = Cause::material_failed;
+  if (!(value_of(now.value) > 0)) {  // fully softened: no yield surface is left
+    out.cause = FailureCause::material_failed;
     return out;
   }
   if (!(value_of(squared) * 6 * shear * shear > value_of(now.value) * value_of(now.value))) return out;
@@ -71,7 +72,7 @@ RadialReturn<S> radial_return(const Hardening& hardening, const S& squared, cons
   return out;
 }
 
-/// Parameters of a J2 law: throws a sentence that names the wrong one.
+/// Throws std::invalid_argument, naming the parameter, if one of a J2 law is invalid.
 template <class Hardening>
 void validate_j2(Real young, Real poisson, const Hardening& hardening) {
   ElasticModuli::validate(young, poisson);

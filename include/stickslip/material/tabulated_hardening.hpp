@@ -17,20 +17,20 @@
 
 namespace stickslip {
 
-/// Flow stress behind the last point of a table.
+/// Flow stress beyond the last point of a table.
 enum class BeyondTable {
-  constant,  ///< that of the last point: perfect plasticity; the slope jumps to zero
-  linear     ///< straight on with the slope of the last two points
+  constant,  ///< stress of the last point: perfect plasticity; the slope jumps to zero
+  linear     ///< straight line with the slope of the last two points
 };
 
-/// Flow stress through measured points: monotone cubic interpolation (theory.md, eq. 3.14; PCHIP of Boost.Math), which
-/// rises wherever the points do and has no extrema between them. Value and slope are continuous up to the last point.
+/// Flow stress through measured points: monotone cubic interpolation (theory.md, eq. 3.15; PCHIP of Boost.Math),
+/// without extrema between the points. Value and slope are continuous up to the last point.
 class TabulatedHardening {
  public:
   using Role = role::Hardening;
 
   TabulatedHardening() = default;
-  /// Takes points of ascending plastic strain, the first at zero.
+  /// Points of ascending plastic strain from zero. Throws std::invalid_argument for the first fault (fault_of).
   TabulatedHardening(std::vector<FlowPoint> points, BeyondTable beyond = BeyondTable::constant)
       : points_(std::move(points)), beyond_(beyond) {
     validate();
@@ -44,13 +44,13 @@ class TabulatedHardening {
     for (std::size_t k = 1; k < points_.size(); ++k) work_.push_back(work_[k - 1] + piece(k - 1, points_[k].strain));
   }
 
-  /// Of a dual p the value carries the derivative, and the slope none.
+  /// For a dual p the value carries the derivative; the slope carries none.
   template <class S>
   FlowStress<S> flow(const S& p) const {
     const FlowStress<Real> at = read(value_of(p));
     return {S(at.value) + at.slope * (p - S(value_of(p))), S(at.slope)};
   }
-  /// Plastic work per reference volume up to p: the integral of the flow stress.
+  /// Plastic work per reference volume up to p, the integral of the flow stress [stress].
   Real work(Real p) const {
     const FlowPoint& last = points_.back();
     if (p >= last.strain) return work_.back() + 0.5 * (p - last.strain) * (last.stress + read(p).value);
@@ -72,7 +72,7 @@ class TabulatedHardening {
     const Real slope = beyond_ == BeyondTable::linear ? curve_->prime(last.strain) : 0;
     return {last.stress + slope * (p - last.strain), slope};
   }
-  // Work from point k to p in the same piece. Simpson's rule is exact for a cubic.
+  // Work from point k to p in the same interval. Simpson's rule is exact for a cubic.
   Real piece(std::size_t k, Real p) const {
     const Real from = points_[k].strain;
     return (p - from) / 6 * (points_[k].stress + 4 * read(0.5 * (from + p)).value + read(p).value);

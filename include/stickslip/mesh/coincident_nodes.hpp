@@ -13,14 +13,14 @@
 
 namespace stickslip::mesh {
 
-/// Nodes that lie where another one lies.
+/// Coincident nodes of a mesh.
 struct Coincidence {
-  Index nodes = 0;               ///< how many there are but one at each place; 0: none
-  std::array<Index, 2> first{};  ///< two of them
+  Index nodes = 0;               ///< number of nodes beyond one per position; 0: none
+  std::array<Index, 2> first{};  ///< two coincident nodes
 };
 
-/// Looks for nodes of the mesh closer to each other than `tolerance` times its size: blocks that were meshed apart and
-/// never joined come apart where they touch. In their lists of cells such blocks look sound.
+/// Finds nodes closer to each other than `tolerance` times the mesh's size: blocks that were meshed separately and
+/// never merged come apart at their interface, although their cell lists are valid.
 template <int dim, int nodes_per_cell>
 Coincidence coincident_nodes(const Mesh<dim, nodes_per_cell>& mesh, Real tolerance = 1e-9) {
   Coincidence found;
@@ -30,11 +30,11 @@ Coincidence coincident_nodes(const Mesh<dim, nodes_per_cell>& mesh, Real toleran
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  // No closer than coordinates can tell.
+  // At least the round-off of the coordinates.
   const Real near =
       std::max(tolerance * (high - low).norm(), 4 * std::numeric_limits<Real>::epsilon() *
                                                     std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()));
-  // In the order of a direction in which no two columns of a structured mesh fall together.
+  // Sorted along a direction in which no two columns of a structured mesh coincide.
   Vec<Real, dim> along;
   for (int i = 0; i < dim; ++i) along[i] = 1 / (1 + i * Real(0.6180339887498949));
   along /= along.norm();

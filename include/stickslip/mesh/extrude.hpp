@@ -9,17 +9,17 @@
 
 namespace stickslip::mesh {
 
-/// How a plane mesh is drawn out along z.
+/// Extrusion of a plane mesh along z.
 struct Extrusion {
   Real thickness = 1;                        ///< [length]
-  Index layers = 1;                          ///< of cells
+  Index layers = 1;                          ///< number of cells through the thickness
   Real from = 0;                             ///< z of the plane mesh [length]
   std::string low = "back", high = "front";  ///< names of the two faces
 };
 
-/// Draws a mesh of quadrilaterals out into hexahedra. Its sides keep their names, and the faces where z is low and high
-/// are added: a rectangle becomes what `box` makes. Nodes are numbered through the thickness first, in the order of the
-/// plane mesh, which keeps the band of the matrices narrow where there are few layers.
+/// Extrudes a mesh of quadrilaterals to hexahedra. Its sides keep their names, and the faces at low and high z are
+/// added: a rectangle becomes the mesh of `box`. Nodes are numbered through the thickness first, in the order of the
+/// plane mesh, for a small bandwidth with few layers. Throws std::invalid_argument for invalid parameters or names.
 inline Mesh<3, 8> extrude(const Mesh<2, 4>& plane, const Extrusion& e) {
   if (e.layers < 1) throw std::invalid_argument("mesh extrude: needs at least one layer");
   if (!(e.thickness > 0) || !std::isfinite(e.thickness) || !std::isfinite(e.from))

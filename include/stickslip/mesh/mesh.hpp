@@ -16,8 +16,8 @@
 namespace stickslip {
 
 /// A named part of the boundary: facets as node lists, and their nodes once each, in the order of first appearance. In
-/// the plane the body is on the left of a walk along the facets' nodes; in space they run counter-clockwise seen from
-/// outside, so that the right hand's thumb points out of the body.
+/// the plane the body is on the left of a facet's nodes; in three dimensions they run counter-clockwise viewed from
+/// outside, with the normal out of the body by the right-hand rule.
 template <int dim>
 struct Side {
   static constexpr std::size_t facet_nodes = dim == 2 ? 2 : 4;
@@ -25,7 +25,7 @@ struct Side {
   std::vector<Index> nodes;
 };
 
-/// A mesh of one kind of cell with named sides.
+/// A mesh of one cell type with named sides.
 template <int dim_, int nodes_per_cell_>
 struct Mesh {
   static constexpr int dim = dim_;
@@ -45,7 +45,7 @@ struct Mesh {
     return largest;
   }
 
-  /// The side called `name`; the error lists the names that there are.
+  /// The side called `name`. Throws std::invalid_argument, which lists the existing names, if there is none.
   const Side<dim>& side(const std::string& name) const {
     const auto found = sides.find(name);
     if (found != sides.end()) return found->second;
@@ -56,9 +56,9 @@ struct Mesh {
   }
 };
 
-/// By which to tell whether another mesh is the same: its counts, and a digest of its nodes, cells and sides.
+/// Identifies a mesh by its numbers of nodes and cells and a digest of its nodes, cells and sides.
 template <int dim, int nodes_per_cell>
-std::string describe(const Mesh<dim, nodes_per_cell>& mesh) {
+std::string fingerprint(const Mesh<dim, nodes_per_cell>& mesh) {
   Digest digest;
   digest.add(mesh.nodes.data(), mesh.nodes.size());
   digest.add(mesh.cells.data(), mesh.cells.size());
@@ -73,7 +73,7 @@ std::string describe(const Mesh<dim, nodes_per_cell>& mesh) {
 
 namespace mesh {
 
-/// Adds a side that is the union of others, each node once: a contact that goes around corners.
+/// Adds a side that is the union of others, each node once, for a contact that extends around corners.
 template <int dim, int nodes_per_cell>
 void join(Mesh<dim, nodes_per_cell>& mesh, const std::string& name, const std::vector<std::string>& parts) {
   Side<dim> joined;
@@ -94,7 +94,7 @@ struct Rectangle {
 };
 
 /// Meshes a rectangle. Sides: left, right, bottom, top. Nodes are numbered along the direction with fewer cells first,
-/// which keeps the band of the matrices narrow.
+/// for a small bandwidth of the matrices.
 inline Mesh<2, 4> rectangle(const Rectangle& r) {
   if (r.cells[0] < 1 || r.cells[1] < 1)
     throw std::invalid_argument("mesh rectangle: needs at least one cell in each direction");
@@ -136,26 +136,25 @@ struct Box {
 };
 
 /// Meshes a box. Sides: left, right (along x), bottom, top (along y), back, front (along z). Nodes are numbered along
-/// the direction with the fewest cells first and along that with the most last, which keeps the band of the matrices
-/// narrow.
+/// the direction with the fewest cells first and along that with the most last, for a small bandwidth of the matrices.
 inline Mesh<3, 8> box(const Box& b) {
   if (b.cells[0] < 1 || b.cells[1] < 1 || b.cells[2] < 1)
     throw std::invalid_argument("mesh box: needs at least one cell in each direction");
   if (!(b.size[0] > 0 && b.size[1] > 0 && b.size[2] > 0) || !is_finite(b.size) || !is_finite(b.origin))
     throw std::invalid_argument("mesh box: the size must be positive and finite");
-  using Place = std::array<Index, 3>;
+  using Location = std::array<Index, 3>;
   std::array<std::size_t, 3> order{2, 1, 0};  // directions from the innermost to the outermost
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return b.cells[i] < b.cells[j]; });
-  Place stride{};
+  Location stride{};
   Index count = 1;
   for (const std::size_t i : order) {
     stride[i] = count;
     count *= b.cells[i] + 1;
   }
-  const auto node = [&](const Place& at) { return at[0] * stride[0] + at[1] * stride[1] + at[2] * stride[2]; };
-  // Calls visit(place) for places[i] places in each direction, in the order of the numbering.
-  const auto walk = [&](const Place& places, auto&& visit) {
-    Place at{};
+  const auto node = [&](const Location& at) { return at[0] * stride[0] + at[1] * stride[1] + at[2] * stride[2]; };
+  // Calls visit(at) for places[i] grid indices in each direction i, in the order of the numbering.
+  const auto walk = [&](const Location& places, auto&& visit) {
+    Location at{};
     for (at[order[2]] = 0; at[order[2]] < places[order[2]]; ++at[order[2]])
       for (at[order[1]] = 0; at[order[1]] < places[order[1]]; ++at[order[1]])
         for (at[order[0]] = 0; at[order[0]] < places[order[0]]; ++at[order[0]]) visit(at);
@@ -163,7 +162,7 @@ inline Mesh<3, 8> box(const Box& b) {
 
   Mesh<3, 8> mesh;
   mesh.nodes.reserve(static_cast<std::size_t>(count));
-  walk({b.cells[0] + 1, b.cells[1] + 1, b.cells[2] + 1}, [&](const Place& at) {
+  walk({b.cells[0] + 1, b.cells[1] + 1, b.cells[2] + 1}, [&](const Location& at) {
     Vec<Real, 3> x;
     for (std::size_t i = 0; i < 3; ++i) {
       const int c = static_cast<int>(i);
@@ -171,21 +170,21 @@ inline Mesh<3, 8> box(const Box& b) {
     }
     mesh.nodes.push_back(x);
   });
-  walk(b.cells, [&](const Place& at) {
+  walk(b.cells, [&](const Location& at) {
     const Index n = node(at), x = stride[0], y = stride[1], z = stride[2];
     mesh.cells.push_back({n, n + x, n + x + y, n + y, n + z, n + x + z, n + x + y + z, n + y + z});
   });
 
-  // The side where direction `normal` is at its low or high end: its facets run along the two others.
+  // The side at the low or high end of direction `normal`; its facets span the two others.
   const auto add_side = [&](const char* name, std::size_t normal, bool high) {
     std::size_t u = (normal + 1) % 3, v = (normal + 2) % 3;
-    if (!high) std::swap(u, v);  // seen from outside, v turns left from u
+    if (!high) std::swap(u, v);  // counter-clockwise from u to v, viewed from outside
     Side<3> side;
-    Place places{1, 1, 1};
+    Location places{1, 1, 1};
     places[u] = b.cells[u];
     places[v] = b.cells[v];
     const Index offset = high ? b.cells[normal] * stride[normal] : 0;
-    walk(places, [&](const Place& at) {
+    walk(places, [&](const Location& at) {
       const Index n = offset + node(at);
       side.facets.push_back({n, n + stride[u], n + stride[u] + stride[v], n + stride[v]});
     });

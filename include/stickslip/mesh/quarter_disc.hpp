@@ -9,17 +9,17 @@
 
 namespace stickslip::mesh {
 
-/// A quarter of a disc about the origin, x and y not negative: cells[0] x cells[0] quadrilaterals in a block at the
-/// centre, and around it two bent blocks of cells[0] along the rim and cells[1] from the block to it.
+/// A quarter disc about the origin, x and y not negative: cells[0] x cells[0] quadrilaterals in a block at the centre,
+/// and around it two curved blocks of cells[0] along the rim and cells[1] from the block to the rim.
 struct QuarterDisc {
   Real radius = 1;  ///< [length]
   std::array<Index, 2> cells{1, 1};
 };
 
-/// Meshes a quarter disc. Sides: `x=0` and `y=0`, the straight ones, and `rim`. The cells have one length along both of
-/// them, unless that made the block wider than 0.6 of the radius. No cell is degenerate: three meet at the block's
-/// corner, at about 120 degrees each. Nodes are numbered along the arcs, from the centre outwards, which keeps the band
-/// of the matrices narrow.
+/// Meshes a quarter disc. Sides: the straight ones `x=0` and `y=0`, and `rim`. Cells along the straight sides have
+/// equal lengths, unless this makes the block wider than 0.6 of the radius. No cell is degenerate: three meet at the
+/// block's corner, at about 120 degrees each. Nodes are numbered along the arcs, from the centre outwards, for a small
+/// bandwidth of the matrices.
 inline Mesh<2, 4> quarter_disc(const QuarterDisc& d) {
   if (d.cells[0] < 1 || d.cells[1] < 1)
     throw std::invalid_argument("mesh quarter disc: needs at least one cell in the block and one around it");
@@ -29,12 +29,12 @@ inline Mesh<2, 4> quarter_disc(const QuarterDisc& d) {
   const Index n = d.cells[0], arcs = n + d.cells[1];
   const Real block = d.radius * std::min(Real(n) / arcs, 0.6);
 
-  // The arc s, of which s = 0 is the centre, has `steps(s)` cells along it. Within the block it is the angular line of
-  // the nodes with max(i, j) = s, bent outwards the more the farther it is from the centre.
+  // Arc s, with s = 0 at the centre, has `steps(s)` cells. Within the block it is the L-shaped line of the nodes with
+  // max(i, j) = s, bent outwards in proportion to s.
   const auto steps = [&](Index s) { return 2 * std::min(s, n); };
   const auto on_circle = [&](Index s, Index t) {
     if (2 * t == steps(s)) return Point(Point::Constant(std::sqrt(0.5)));
-    const Index half = std::min(t, steps(s) - t);  // so that both halves are mirror images to the last bit
+    const Index half = std::min(t, steps(s) - t);  // makes both halves mirror images to the last bit
     const Real angle = 0.5 * pi * half / steps(s), u = std::cos(angle), v = std::sin(angle);
     return half == t ? Point(u, v) : Point(v, u);
   };
@@ -47,7 +47,7 @@ inline Mesh<2, 4> quarter_disc(const QuarterDisc& d) {
   };
 
   Mesh<2, 4> mesh;
-  std::vector<Index> first;  // node of every arc
+  std::vector<Index> first;  // first node of every arc
   for (Index s = 0; s <= arcs; ++s) {
     first.push_back(mesh.node_count());
     for (Index t = 0; t <= steps(s); ++t) {
@@ -59,7 +59,7 @@ inline Mesh<2, 4> quarter_disc(const QuarterDisc& d) {
     }
   }
   const auto node = [&](Index s, Index t) { return first[static_cast<std::size_t>(s)] + t; };
-  // Between the arcs s and s + 1. Within the block the outer one turns the corner in two steps more.
+  // Cells between the arcs s and s + 1. Within the block the outer arc takes two more steps around the corner.
   for (Index s = 0; s < arcs; ++s)
     for (Index t = 0; t < steps(s + 1); ++t) {
       if (s >= n || t < s)

@@ -13,16 +13,15 @@
 namespace stickslip {
 
 namespace detail {
-// Refuses what names the node n, of a mesh with so many.
+// Throws because `what` names the node n, which a mesh of `nodes` nodes does not have.
 [[noreturn]] inline void refuse_node(const std::string& what, Index n, std::size_t nodes) {
   throw std::invalid_argument(what + " names a node that does not exist, " + std::to_string(n) + ": the mesh has " +
                               std::to_string(nodes) + ", numbered from 0");
 }
 }  // namespace detail
 
-/// Throws std::invalid_argument, one sentence that names what is wrong, for a mesh that cannot be computed with: a cell
-/// or a side that names nodes which do not exist, a node in no cell, whose row of the matrices would be zero, a side
-/// with a node or a facet twice, which would count double.
+/// Throws std::invalid_argument, naming the fault, for an invalid mesh: a cell or a side with nodes that do not exist,
+/// a node in no cell, whose matrix row would be zero, or a side with a node or a facet twice, which would count double.
 template <int dim, int nodes_per_cell>
 void require_sound(const Mesh<dim, nodes_per_cell>& mesh) {
   const std::size_t count = mesh.nodes.size();

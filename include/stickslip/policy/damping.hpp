@@ -14,7 +14,7 @@ concept ActiveDamping = requires(const D& damping) {
   { damping.tau } -> std::convertible_to<Real>;
 };
 
-/// Whether the body of a bundle with inertia damps its own vibrations. docs/policies.md, section Damping.
+/// Whether the body of a model with inertia damps its own vibrations. docs/policies.md, section Damping.
 template <class D>
 concept DampingPolicy = requires {
   requires std::same_as<typename D::Role, role::Damping>;
@@ -22,7 +22,7 @@ concept DampingPolicy = requires {
   requires !D::active || ActiveDamping<D>;
 };
 
-/// No damping: what a bundle has that names none.
+/// No damping: what a model has that names none.
 struct Undamped {
   using Role = role::Damping;
   static constexpr bool active = false;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/base/nothing.hpp>
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/base/role.hpp>
+#include <stickslip/base/stored_if.hpp>
+#include <stickslip/base/want.hpp>
+#include <stickslip/policy/condensed_unknown.hpp>
 #include <stickslip/policy/kinematics.hpp>
-#include <stickslip/policy/stiff_relation.hpp>
 #include <stickslip/tensor/products.hpp>
 
 #include <array>
@@ -16,13 +17,14 @@ namespace stickslip {
 /// What one quadrature point of an element keeps of the reference mesh. `G` is the scalar of the geometry.
 template <class Kinematics, int nodes, class G = Real>
 struct PointGeometry {
-  using Shape = typename Kinematics::Shape;
+  using TensorPattern = typename Kinematics::TensorPattern;
   static constexpr int dim = Kinematics::dim;
   static constexpr int dofs = nodes * dim;
 
   Mat<G, nodes, dim> dN_dX;  ///< reference gradients of the shape functions [1/length]
-  [[no_unique_address]] Only<Kinematics::hoop, Vec<G, nodes>, struct HoopTag> N_over_R;  ///< hoop operator [1/length]
-  G weight;  ///< reference volume that the point stands for [length^3]
+  [[no_unique_address]] StoredIf<Kinematics::hoop, Vec<G, nodes>, struct HoopTag>
+      N_over_R;  ///< hoop operator [1/length]
+  G weight;      ///< reference volume that the point stands for [length^3]
 };
 
 /// Geometry of a point from the nodes' reference coordinates (one row a node).
@@ -31,15 +33,15 @@ PointGeometry<Kinematics, Cell::nodes> point_geometry(const Kinematics& kinemati
                                                       const Mat<Real, Cell::nodes, Cell::dim>& X,
                                                       const Vec<Real, Cell::dim>& xi, Real quadrature_weight) {
   constexpr int dim = Cell::dim;
-  using Shape = typename Kinematics::Shape;
+  using TensorPattern = typename Kinematics::TensorPattern;
   const Mat<Real, Cell::nodes, dim> dN_dxi = Cell::gradient(xi);
   const Vec<Real, Cell::nodes> N = Cell::shape(xi);
   const Mat<Real, dim> block = transposed_product(X, dN_dxi);
-  auto jacobian = Tensor<Real, Shape>::identity();  // in the plane, the normal stays as it is
+  auto jacobian = Tensor<Real, TensorPattern>::identity();  // in the plane, the normal stays as it is
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j) jacobian(i, j) = block(i, j);
   const Real det = determinant(jacobian);
-  const Tensor<Real, Shape> adjugate_of_jacobian = adjugate(jacobian);
+  const Tensor<Real, TensorPattern> adjugate_of_jacobian = adjugate(jacobian);
   Mat<Real, dim> inverse;
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j) inverse(i, j) = adjugate_of_jacobian(i, j) / det;
@@ -47,7 +49,7 @@ PointGeometry<Kinematics, Cell::nodes> point_geometry(const Kinematics& kinemati
   PointGeometry<Kinematics, Cell::nodes> point;
   point.dN_dX = product(dN_dxi, inverse);
   if constexpr (Kinematics::hoop) point.N_over_R = scaled(N, 1 / place[0]);
-  point.weight = quadrature_weight * det * kinematics.measure(place);
+  point.weight = quadrature_weight * det * kinematics.volume_factor(place);
   return point;
 }
 
@@ -59,12 +61,28 @@ struct ElementResult {
   std::array<State, static_cast<std::size_t>(points)> states;
 };
 
-/// Whether an element has a stiff relation: its `evaluate` then takes a StiffRelation<S, dofs>* after all else, null
-/// for a relation that is closed.
+/// Whether an element has a condensed unknown: its `evaluate` then takes a CondensedUnknown<S, dofs>* after all else,
+/// null for a relation that is closed.
 template <class E>
-inline constexpr bool has_stiff_relation = requires {
-  requires E::stiff_relation;
+inline constexpr bool has_condensed_unknown = requires {
+  requires E::condensed_unknown;
 };
+
+/// Whether an element can leave the tangent out: its `evaluate` then takes a Want after all else.
+template <class E>
+inline constexpr bool takes_want = requires {
+  requires E::takes_want;
+};
+
+/// Evaluates an element, with the skills that it has. `condensed` is nothing, or a CondensedUnknown<S, dofs>*.
+template <class Element, class Geometry, class Material, class Vector, class States, class Result, class... Condensed>
+FailureCause evaluate_element(const Geometry& geometry, const Material& material, const Vector& u, const States& old,
+                              Real dt, Result& out, [[maybe_unused]] Want want, Condensed... condensed) {
+  if constexpr (takes_want<Element>)
+    return Element::evaluate(geometry, material, u, old, dt, out, condensed..., want);
+  else
+    return Element::evaluate(geometry, material, u, old, dt, out, condensed...);
+}
 
 /// An element: a reference cell with its quadrature and the treatment of the volumetric part. `evaluate`, a template,
 /// is checked where the model is put together. docs/policies.md, section Element.

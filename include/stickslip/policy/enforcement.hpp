@@ -49,7 +49,7 @@ concept ContactEnforcement = requires(const E& enforcement, const Real& gap, Rea
   { enforcement.stick_stiffness(weight) } -> std::same_as<Real>;
 };
 
-/// The enforcement choice of a bundle: one of contact, or none. The disjunction stands outside `requires`, inside which
+/// The enforcement choice of a model: one of contact, or none. The disjunction stands outside `requires`, inside which
 /// Clang 14 does not stop at the first operand.
 template <class E>
 concept EnforcementPolicy = requires {

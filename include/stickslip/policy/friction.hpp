@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/base/nothing.hpp>
 #include <stickslip/base/role.hpp>
+#include <stickslip/base/stored_if.hpp>
 #include <stickslip/base/symmetry.hpp>
 #include <stickslip/base/types.hpp>
 
@@ -13,11 +13,11 @@ namespace stickslip {
 /// What a friction bound may look at. Area and rate are filled in for laws that ask for them, by `depends_on_area` and
 /// `depends_on_rate`.
 template <class S>
-struct FrictionPoint {
-  S pressure;     ///< normal force of the node, positive in compression, as the pressure source gives it [force]
-  S slip;         ///< slid distance accumulated so far, the current step's included [length]
-  Real area = 0;  ///< reference area that the node carries [length^2]
-  S rate = S(0);  ///< speed of sliding, the mean over the step [length / time]
+struct InterfaceState {
+  S pressure;          ///< normal force of the node, positive in compression, as the pressure source gives it [force]
+  S accumulated_slip;  ///< slid distance accumulated so far, the current step's included [length]
+  Real area = 0;       ///< reference area that the node carries [length^2]
+  S rate = S(0);       ///< speed of sliding, the mean over the step [length / time]
 };
 
 /// Largest friction force that an interface bears, and its derivatives.
@@ -47,7 +47,7 @@ constexpr bool depends_on_rate() {
 }
 
 /// Whether a law's bound depends on the direction: `metric()` is the matrix M of sqrt(t . M t) = bound, in the tool's
-/// frame (theory.md, eq. 5.26). Three dimensions only.
+/// frame (theory.md, eq. 5.28). Three dimensions only.
 template <class Law>
 inline constexpr bool is_anisotropic = requires(const Law& law) {
   { law.metric() } -> std::same_as<Mat<Real, 3>>;
@@ -62,14 +62,14 @@ constexpr bool is_iterated() {
     return false;
 }
 
-/// Whether a source's pressure lags behind, and can be told which one to take: `seeing(pressure)` is the memory with
-/// which the bound sees just that, `stable_below` the feedback up to which the lag settles. Passes over a step need it,
-/// and the probe whether friction feeds back on its own bound.
+/// Whether a source's pressure lags behind, and can be told which one to take: `from_pressure(pressure)` is the memory
+/// with which the bound sees just that, `critical_feedback` the feedback up to which the lag settles. Passes over a
+/// step need it, and the probe whether friction feeds back on its own bound.
 template <class Source>
-inline constexpr bool can_see = requires(const Real& pressure) {
+inline constexpr bool is_lagged = requires(const Real& pressure) {
   requires !Source::follows_current;
-  { Source::stable_below } -> std::convertible_to<Real>;
-  { Source::seeing(pressure) } -> std::same_as<typename Source::template Memory<Real>>;
+  { Source::critical_feedback } -> std::convertible_to<Real>;
+  { Source::from_pressure(pressure) } -> std::same_as<typename Source::template Memory<Real>>;
 };
 
 /// Whether a source that follows the current pressure leaves its part out of the tangent, which is symmetric then.
@@ -94,7 +94,7 @@ concept PressureSourcePolicy = requires(const Real& current, const typename P::t
 /// A friction law: a scalar bound with its derivatives, and the pressure source that feeds it. Radial return, the
 /// stick-slip switch and the linearisation are the library's. docs/policies.md, section Friction.
 template <class L>
-concept FrictionLaw = requires(const L& law, const FrictionPoint<Real>& at) {
+concept FrictionLaw = requires(const L& law, const InterfaceState<Real>& at) {
   requires std::same_as<typename L::Role, role::Friction>;
   requires std::same_as<decltype(L::depends_on_pressure), const bool>;
   requires std::same_as<decltype(L::depends_on_slip), const bool>;
@@ -120,7 +120,7 @@ struct WithPressure {
   static constexpr bool active = true;
 };
 
-/// A friction choice for each kind of contact in the scene. The contacts of a bundle are then one list a kind, and a
+/// A friction choice for each kind of contact in the scene. The contacts of a model are then one list a kind, and a
 /// pair of a kind without friction keeps nothing of it.
 template <class... Frictions>
 struct PerContact {
@@ -129,7 +129,7 @@ struct PerContact {
   static constexpr bool per_contact = (SingleFriction<Frictions> && ...);
 };
 
-/// The friction choice of a bundle: one for all contacts, or one a kind.
+/// The friction choice of a model: one for all contacts, or one a kind.
 template <class F>
 concept FrictionPolicy = SingleFriction<F> || requires {
   requires F::per_contact;
@@ -158,7 +158,7 @@ struct Frictions {
   static constexpr bool any_lagging = ((F::active &&
                                         [] {
                                           if constexpr (F::active)
-                                            return F::Law::depends_on_pressure && can_see<typename F::Pressure>;
+                                            return F::Law::depends_on_pressure && is_lagged<typename F::Pressure>;
                                           else
                                             return false;
                                         }()) ||

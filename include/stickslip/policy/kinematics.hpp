@@ -14,8 +14,8 @@ template <class K>
 concept KinematicsPolicy = requires(const K& kinematics, const Vec<Real, K::dim>& X) {
   requires std::same_as<typename K::Role, role::Kinematics>;
   requires std::same_as<decltype(K::hoop), const bool>;
-  requires K::Shape::dim == K::dim;
-  { kinematics.measure(X) } -> std::same_as<Real>;
+  requires K::TensorPattern::dim == K::dim;
+  { kinematics.volume_factor(X) } -> std::same_as<Real>;
 };
 
 }  // namespace stickslip

@@ -62,7 +62,7 @@ inline constexpr bool is_direct = requires {
 
 /// Whether a solver takes a general system as a symmetric matrix and the blocks that it lacks.
 template <class L>
-inline constexpr bool takes_corrections = requires {
+inline constexpr bool accepts_couplings = requires {
   requires L::corrects;
 };
 

@@ -14,14 +14,14 @@ namespace stickslip {
 
 /// A deformation gradient F and two quantities that it tells with an error of one rounding of 1 only, however small the
 /// strain: an element gives them with all their digits (theory.md, eq. 2.13).
-template <class S, class Shape>
+template <class S, class TensorPattern>
 struct Deformation {
-  Tensor<S, Shape> F;
-  Tensor<S, Shape> H;  ///< F - 1
-  S log_J;             ///< ln det F
+  Tensor<S, TensorPattern> F;
+  Tensor<S, TensorPattern> H;  ///< F - 1
+  S log_J;                     ///< ln det F
 
   /// What F alone tells.
-  static Deformation of(const Tensor<S, Shape>& F) {
+  static Deformation of(const Tensor<S, TensorPattern>& F) {
     using std::log;
     Deformation d{F, F, log(determinant(F))};
     for (int i = 0; i < 3; ++i) d.H(i, i) -= S(1);
@@ -30,33 +30,34 @@ struct Deformation {
 };
 
 /// What a material answers to a deformation gradient.
-template <class S, class Shape, class State>
+template <class S, class TensorPattern, class State>
 struct MaterialResponse {
-  Tensor<S, Shape> P;      ///< first Piola-Kirchhoff stress [force / reference area], first index spatial
-  Moduli<S, Shape> dP_dF;  ///< its consistent derivative, rows and columns in the order of Shape::pairs
-  State state;             ///< memory at the end of the step
-  Cause cause = Cause::none;
+  Tensor<S, TensorPattern> P;      ///< first Piola-Kirchhoff stress [force / reference area], first index spatial
+  Moduli<S, TensorPattern> dP_dF;  ///< its consistent derivative, rows and columns in the order of Shape::pairs
+  State state;                     ///< memory at the end of the step
+  FailureCause cause = FailureCause::none;
 };
 
 /// Constitutive law at a point: old memory in, stress, consistent tangent and new memory out. `State<S, Shape>` is an
 /// empty struct where nothing is remembered. A second call with the new memory, the same F and dt = 0 returns the same
 /// stress. A law that can be had with more digits takes a Deformation in place of F as well. docs/policies.md, section
 /// Material.
-template <class M, class Shape>
-concept MaterialPolicy = requires(const M& material, const Tensor<Real, Shape>& F,
-                                  const typename M::template State<Real, Shape>& old, Real dt) {
+template <class M, class TensorPattern>
+concept MaterialPolicy = requires(const M& material, const Tensor<Real, TensorPattern>& F,
+                                  const typename M::template State<Real, TensorPattern>& old, Real dt) {
   requires std::same_as<typename M::Role, role::Material>;
   requires std::same_as<decltype(M::symmetry), const Symmetry>;
-  requires std::default_initializable<typename M::template State<Real, Shape>>;
+  requires std::default_initializable<typename M::template State<Real, TensorPattern>>;
   {
     material.respond(F, old, dt)
-    } -> std::same_as<MaterialResponse<Real, Shape, typename M::template State<Real, Shape>>>;
+    } -> std::same_as<MaterialResponse<Real, TensorPattern, typename M::template State<Real, TensorPattern>>>;
 };
 
 /// What a material answers at a point of an element, with all the digits that it can use.
-template <class Material, class S, class Shape, class State>
-MaterialResponse<S, Shape, State> answer_of(const Material& material, const Deformation<S, Shape>& deformation,
-                                            const State& old, Real dt) {
+template <class Material, class S, class TensorPattern, class State>
+MaterialResponse<S, TensorPattern, State> answer_of(const Material& material,
+                                                    const Deformation<S, TensorPattern>& deformation, const State& old,
+                                                    Real dt) {
   if constexpr (requires { material.respond(deformation, old, dt); })
     return material.respond(deformation, old, dt);
   else

@@ -5,24 +5,24 @@
 #include <stickslip/policy/element.hpp>
 #include <stickslip/policy/enforcement.hpp>
 #include <stickslip/policy/friction.hpp>
-#include <stickslip/policy/inertia.hpp>
 #include <stickslip/policy/kinematics.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/policy/time_integration.hpp>
 
 namespace stickslip {
 
-/// True when the bundle has contact at all.
+/// True when the model has contact at all.
 template <class Model>
 inline constexpr bool has_contact = Model::Enforcement::active;
 
-/// True when the bundle has friction.
+/// True when the model has friction.
 template <class Model>
 inline constexpr bool has_friction = has_contact<Model>&& Model::Friction::active;
 
 /// True when a step takes several passes: multipliers, or a bound that is brought up to date.
 template <class Model>
-constexpr bool takes_passes() {
+constexpr bool has_outer_iterations() {
   if constexpr (has_friction<Model>)
     return is_augmented<typename Model::Enforcement> || friction_is_iterated<typename Model::Friction>;
   else if constexpr (has_contact<Model>)
@@ -42,16 +42,16 @@ constexpr bool has_lag() {
 
 /// True when the matrix is only near the residual's derivative: what it lacks Newton's method must find out.
 template <class Model>
-constexpr bool has_near_tangent() {
+constexpr bool has_inexact_tangent() {
   if constexpr (has_friction<Model>)
     return friction_is_symmetrised<typename Model::Friction>;
   else
     return false;
 }
 
-/// True when the bundle has inertia.
+/// True when the model has inertia.
 template <class Model>
-inline constexpr bool has_inertia = Model::Inertia::active;
+inline constexpr bool has_inertia = Model::TimeIntegration::active;
 
 namespace detail {
 template <class Model>
@@ -67,11 +67,11 @@ struct DampingNamedBy<Model> {
 };
 }  // namespace detail
 
-/// The damping of the bundle: `Undamped` where it names none.
+/// The damping of the model: `Undamped` where it names none.
 template <class Model>
 using DampingOf = typename detail::DampingNamedBy<Model>::type;
 
-/// True when the bundle has damping.
+/// True when the model has damping.
 template <class Model>
 inline constexpr bool has_damping = DampingOf<Model>::active;
 
@@ -108,7 +108,7 @@ struct SolverFor<Solver, system> {
 };
 }  // namespace detail
 
-/// The solver that serves the bundle: the one it names, or the member of the family it names.
+/// The solver that serves the model: the one it names, or the member of the family it names.
 template <class Model>
 using SolverOf = typename detail::SolverFor<typename Model::LinearSolver, system_symmetry<Model>>::type;
 
@@ -116,7 +116,7 @@ using SolverOf = typename detail::SolverFor<typename Model::LinearSolver, system
 /// only for a solver that takes what the triangle lacks apart, which contact and friction can tell and a material
 /// cannot.
 template <class Model>
-inline constexpr Symmetry matrix_storage = (takes_corrections<SolverOf<Model>> &&
+inline constexpr Symmetry matrix_storage = (accepts_couplings<SolverOf<Model>> &&
                                             widest(Model::Material::symmetry, enforcement_symmetry<Model>()) ==
                                                 Symmetry::symmetric)
                                                ? SolverOf<Model>::storage
@@ -124,8 +124,8 @@ inline constexpr Symmetry matrix_storage = (takes_corrections<SolverOf<Model>> &
 
 /// True when the matrix is stored as a triangle and the couplings of sliding nodes apart.
 template <class Model>
-inline constexpr bool keeps_couplings = (system_symmetry<Model> == Symmetry::general) &&
-                                        (matrix_storage<Model> == Symmetry::symmetric);
+inline constexpr bool stores_couplings = (system_symmetry<Model> == Symmetry::general) &&
+                                         (matrix_storage<Model> == Symmetry::symmetric);
 
 namespace detail {
 // A solver by its storage alone.
@@ -158,8 +158,8 @@ struct ToolNameOf<Model> {
 };
 }  // namespace detail
 
-/// A bundle but for its solver, of which only the storage of the matrix is left: what the body, the contacts and the
-/// balance are made of. Bundles that differ in the solver alone share it, and the compiler's work with it.
+/// A model but for its solver, of which only the storage of the matrix is left: what the body, the contacts and the
+/// balance are made of. Models that differ in the solver alone share it, and the compiler's work with it.
 template <class Kinematics_, class Element_, class Material_, class Friction_, class Enforcement_, class Inertia_,
           class Damping_, class Tool_, Symmetry storage>
 struct Mechanics : detail::NamedTool<Tool_> {
@@ -168,16 +168,16 @@ struct Mechanics : detail::NamedTool<Tool_> {
   using Material = Material_;
   using Friction = Friction_;
   using Enforcement = Enforcement_;
-  using Inertia = Inertia_;
+  using TimeIntegration = Inertia_;
   using Damping = Damping_;
   using LinearSolver = detail::StorageOnly<storage>;
 };
 template <class Model>
 using MechanicsOf = Mechanics<typename Model::Kinematics, typename Model::Element, typename Model::Material,
-                              typename Model::Friction, typename Model::Enforcement, typename Model::Inertia,
+                              typename Model::Friction, typename Model::Enforcement, typename Model::TimeIntegration,
                               DampingOf<Model>, typename detail::ToolNameOf<Model>::type, matrix_storage<Model>>;
 
-/// The rules of a bundle, a concept each. A rule that combines policies holds while one of them breaks its own
+/// The rules of a model, a concept each. A rule that combines policies holds while one of them breaks its own
 /// contract: one mistake gives one sentence.
 namespace rule {
 template <class Model>
@@ -187,7 +187,8 @@ concept Element = ElementPolicy<typename Model::Element>;
 template <class Model>
 concept SameDimension = !Kinematics<Model> || !Element<Model> || Model::Element::dim == Model::Kinematics::dim;
 template <class Model>
-concept Material = !Kinematics<Model> || MaterialPolicy<typename Model::Material, typename Model::Kinematics::Shape>;
+concept Material =
+    !Kinematics<Model> || MaterialPolicy<typename Model::Material, typename Model::Kinematics::TensorPattern>;
 template <class Model>
 concept Friction = FrictionPolicy<typename Model::Friction>;
 template <class Model>
@@ -199,11 +200,12 @@ template <class Model>
 concept DirectionsNeedSpace = !Kinematics<Model> || !Friction<Model> || Model::Kinematics::dim == 3 ||
                               !friction_is_anisotropic<typename Model::Friction>;
 template <class Model>
-concept Inertia = InertiaPolicy<typename Model::Inertia>;
+concept TimeIntegration = TimeIntegrationPolicy<typename Model::TimeIntegration>;
 template <class Model>
 concept Damping = DampingPolicy<DampingOf<Model>>;
 template <class Model>
-concept DampingNeedsInertia = !Inertia<Model> || !Damping<Model> || Model::Inertia::active || !DampingOf<Model>::active;
+concept DampingNeedsInertia =
+    !TimeIntegration<Model> || !Damping<Model> || Model::TimeIntegration::active || !DampingOf<Model>::active;
 template <class Model>
 concept HasSymmetry = Kinematics<Model> && Material<Model> && Friction<Model> && Enforcement<Model>;
 template <class Model>
@@ -213,61 +215,63 @@ concept SolverAcceptsSystem =
     !HasSymmetry<Model> || !LinearSolver<Model> || system_symmetry<Model> == Symmetry::symmetric ||
     SolverOf<Model>::accepts == Symmetry::general;
 template <class Model>
-concept CorrectsCouplings = !HasSymmetry<Model> || !LinearSolver<Model> || !takes_corrections<SolverOf<Model>> ||
+concept CorrectsCouplings = !HasSymmetry<Model> || !LinearSolver<Model> || !accepts_couplings<SolverOf<Model>> ||
                             widest(Model::Material::symmetry, enforcement_symmetry<Model>()) == Symmetry::symmetric;
 }  // namespace rule
 
-/// True for a bundle that meets every rule.
+/// True for a model that meets every rule.
 template <class Model>
 inline constexpr bool valid_model = rule::Kinematics<Model>&& rule::Element<Model>&& rule::SameDimension<Model>&&
     rule::Material<Model>&& rule::Friction<Model>&& rule::Enforcement<Model>&& rule::FrictionNeedsContact<Model>&&
-        rule::DirectionsNeedSpace<Model>&& rule::Inertia<Model>&& rule::Damping<Model>&& rule::DampingNeedsInertia<
-            Model>&& rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>&& rule::CorrectsCouplings<Model>;
+        rule::DirectionsNeedSpace<Model>&& rule::TimeIntegration<Model>&& rule::Damping<Model>&&
+            rule::DampingNeedsInertia<Model>&& rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>&&
+                rule::CorrectsCouplings<Model>;
 
-/// Instantiate to have a bundle checked, one sentence for each rule.
+/// Instantiate to have a model checked, one sentence for each rule.
 template <class Model>
 struct CheckModel {
   static_assert(
       rule::Kinematics<Model>,
-      "stickslip: the bundle's Kinematics does not meet KinematicsPolicy; see docs/policies.md, section Kinematics.");
+      "stickslip: the model's Kinematics does not meet KinematicsPolicy; see docs/policies.md, section Kinematics.");
   static_assert(rule::Element<Model>,
-                "stickslip: the bundle's Element does not meet ElementPolicy; see docs/policies.md, section Element.");
+                "stickslip: the model's Element does not meet ElementPolicy; see docs/policies.md, section Element.");
   static_assert(
       rule::SameDimension<Model>,
       "stickslip: Element and Kinematics differ in dimension; choose an element of the kinematics' dimension.");
   static_assert(
       rule::Material<Model>,
-      "stickslip: the bundle's Material does not meet MaterialPolicy; see docs/policies.md, section Material.");
+      "stickslip: the model's Material does not meet MaterialPolicy; see docs/policies.md, section Material.");
   static_assert(
       rule::Friction<Model>,
-      "stickslip: the bundle's Friction does not meet FrictionPolicy; see docs/policies.md, section Friction.");
+      "stickslip: the model's Friction does not meet FrictionPolicy; see docs/policies.md, section Friction.");
   static_assert(rule::Enforcement<Model>,
-                "stickslip: the bundle's Enforcement does not meet EnforcementPolicy; see docs/policies.md, section "
+                "stickslip: the model's Enforcement does not meet EnforcementPolicy; see docs/policies.md, section "
                 "Enforcement.");
   static_assert(rule::FrictionNeedsContact<Model>,
-                "stickslip: the bundle has Friction but no contact to rub at; set Enforcement (Penalty) or make "
+                "stickslip: the model has Friction but no contact to rub at; set Enforcement (Penalty) or make "
                 "Friction Frictionless.");
   static_assert(rule::DirectionsNeedSpace<Model>,
-                "stickslip: the bundle's Friction depends on the direction, and a section has but one; set Kinematics "
+                "stickslip: the model's Friction depends on the direction, and a section has but one; set Kinematics "
                 "to ThreeDimensional or take an isotropic law.");
-  static_assert(rule::Inertia<Model>,
-                "stickslip: the bundle's Inertia does not meet InertiaPolicy; see docs/policies.md, section Inertia.");
+  static_assert(rule::TimeIntegration<Model>,
+                "stickslip: the model's TimeIntegration does not meet TimeIntegrationPolicy; see docs/policies.md, "
+                "section TimeIntegration.");
   static_assert(rule::Damping<Model>,
-                "stickslip: the bundle's Damping does not meet DampingPolicy; see docs/policies.md, section Damping.");
+                "stickslip: the model's Damping does not meet DampingPolicy; see docs/policies.md, section Damping.");
   static_assert(rule::DampingNeedsInertia<Model>,
-                "stickslip: the bundle has Damping but no inertia, so that nothing vibrates; set Inertia to "
+                "stickslip: the model has Damping but no inertia, so that nothing vibrates; set TimeIntegration to "
                 "GeneralizedAlpha or leave Damping out.");
   static_assert(rule::LinearSolver<Model>,
-                "stickslip: the bundle's LinearSolver does not meet LinearSolverPolicy; see docs/policies.md, section "
+                "stickslip: the model's LinearSolver does not meet LinearSolverPolicy; see docs/policies.md, section "
                 "Linear solver.");
   static_assert(
       rule::SolverAcceptsSystem<Model>,
-      "stickslip: the bundle's LinearSolver takes symmetric systems only, but Friction with the current pressure (or "
+      "stickslip: the model's LinearSolver takes symmetric systems only, but Friction with the current pressure (or "
       "the "
       "Material) makes the tangent non-symmetric; take Quasi<...> friction, or a general solver such as EigenLu.");
   static_assert(
       rule::CorrectsCouplings<Model>,
-      "stickslip: the bundle's LinearSolver corrects a symmetric factor for sliding nodes, but the Material or "
+      "stickslip: the model's LinearSolver corrects a symmetric factor for sliding nodes, but the Material or "
       "the Enforcement is not symmetric either; take a general solver such as EigenLu.");
   static constexpr bool ok = true;
 };

@@ -14,10 +14,10 @@ struct ErrorEstimates {
   Real lag = 0;          ///< the friction bounds' lag; 0 for laws that follow the current pressure
   Real time = 0;         ///< the size of the step
   Real penetration = 0;  ///< tools that give way
-  Real space = 0;        ///< the mesh; only where MarchOptions::space_every asks for it
+  Real space = 0;        ///< the mesh; only where MarchOptions::mesh_error_interval asks for it
 };
 
-/// Predicts the force along a path, work over time, from the last two steps (theory.md, eq. 6.14).
+/// Predicts the force along a path, work over time, from the last two steps (theory.md, eq. 6.18).
 class ForcePredictor {
  public:
   /// Half the part of a step's force that was not to be expected [-]; 0 while there is nothing to expect it by.

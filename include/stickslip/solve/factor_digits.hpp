@@ -9,7 +9,7 @@
 namespace stickslip {
 
 /// Estimates from one back-substitution what the entries of a matrix lose of the digits of its solutions: the condition
-/// of the matrix scaled to a diagonal of ones (theory.md, eq. 6.2c). It looks at the matrix and its solution, not at
+/// of the matrix scaled to a diagonal of ones (theory.md, eq. 6.6). It looks at the matrix and its solution, not at
 /// the factor, so that all solvers are told alike.
 class FactorDigits {
  public:

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/assembly/system.hpp>
-#include <stickslip/base/minimal_residual.hpp>
-#include <stickslip/base/nothing.hpp>
+#include <stickslip/base/orthodir.hpp>
 #include <stickslip/base/outcome.hpp>
+#include <stickslip/base/stored_if.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 #include <stickslip/solve/factor_digits.hpp>
+#include <stickslip/solve/system.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -19,18 +19,18 @@ namespace stickslip {
 
 /// Parameters of Newton's method.
 struct NewtonOptions {
-  /// What round-off may leave of the forces of any run, however tight its tolerance (theory.md, eq. 6.2b).
+  /// What round-off may leave of the forces of any run, however tight its tolerance (theory.md, eq. 6.4).
   static constexpr Real promised = 1e-7;
 
   Real tolerance = 1e-5;  ///< on the residual's norm over the force scale (theory.md, eq. 6.2)
   Index max_iterations = 20;
-  bool line_search = true;  ///< shorten steps that do not lower the merit (theory.md, eq. 6.9)
+  bool line_search = true;  ///< shorten steps that do not lower the merit (theory.md, eq. 6.13)
   Index max_cuts = 5;       ///< of one step by the line search
 };
 
 /// What one solution of a step took.
 struct NewtonReport {
-  Trouble trouble{};
+  Failure failure{};
   Index iterations = 0;  ///< linear solutions
   Index line_search_cuts = 0;
   Index indefinite_factorizations = 0;
@@ -38,19 +38,22 @@ struct NewtonReport {
   Index negative_pivots = -1;  ///< of the last factorisation; -1: none was made, or the solver does not tell
 };
 
-/// Counts of work that outlive a step. Without padding: it stands in restart files as it is.
+/// Counts of work that outlive a step.
 struct WorkCounts {
   std::size_t factor_bytes = 0;  ///< memory of the largest factor; 0 of a solver that does not tell
   Index factorizations = 0;
   Index indefinite_factorizations = 0;
   Index line_search_cuts = 0;
-  Index corrections = 0;  ///< back-substitutions that correct a symmetric factor
+  Index corrections = 0;           ///< back-substitutions that correct a symmetric factor
+  Index evaluations = 0;           ///< of the system
+  Index tangents_unused = 0;       ///< evaluations of a tangent that was not factorised
+  Index evaluations_repeated = 0;  ///< for a tangent that was left out at first
 };
 
-/// Newton's method on the displacements and the stiff relations' variables, with a line search. Work space and the
-/// solver's analysis outlast the calls; nothing is allocated in the loop. With a tangent that is only near the
-/// residual's derivative, what it lacks is found out where its step does not do (theory.md, section 5.9).
-template <class Solver, bool near_tangent = false>
+/// Newton's method on the displacements and the condensed unknowns, with a line search. Work space and the solver's
+/// analysis outlast the calls; nothing is allocated in the loop. With an inexact tangent, what it lacks is found out
+/// where its step does not do (theory.md, section 5.9).
+template <class Solver, bool inexact_tangent = false>
 class Newton {
  public:
   explicit Newton(const NewtonOptions& chosen = {}) : options(chosen) {}
@@ -62,40 +65,38 @@ class Newton {
   WorkCounts counts;
   Real known_scale = 0;  ///< the largest force scale that the run has had [force]
 
-  /// Solves for the displacements u at `time`, from the guess that u holds. With `driven`, the first linear system
-  /// carries those increments of the constrained components as well (a tangent predictor). On failure u is spoilt.
-  template <class System>
-  NewtonReport solve(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
-    system.begin_iteration();
-    judge_anew();
-    return resume(system, u, time, dt, driven);
-  }
-
   /// Makes the next factorisation be asked for its digits, as the first of each attempt is.
-  void judge_anew() { measured_ = false; }
+  void judge_anew() { judged_ = false; }
 
-  /// The same from the stiff relations' variables as they are: another pass over a step.
-  template <class System>
-  NewtonReport resume(System& system, Field& u, Real time, Real dt, const Field* driven = nullptr) {
+  /// Solves for the displacements u at `time`, from the guess that u holds and the condensed unknowns of the iterate.
+  /// With `driven`, the first linear system carries those increments of the constrained components as well (a tangent
+  /// predictor). On failure u is spoilt.
+  template <class Iterate>
+  NewtonReport solve(Iterate& iterate, Field& u, Real time, Real dt, const Field* driven = nullptr) {
+    auto& system = iterate.system();
     NewtonReport report;
     prepare(system);
-    if ((report.trouble = system.iterate(u, time, dt, driven))) return report;
+    last_residual_ = 0;
+    if ((report.failure = evaluate(iterate, u, time, dt, Want::tangent, driven))) return report;
     Index stalls = 0;
     Real least = std::numeric_limits<Real>::infinity();  // residual that may be round-off
     Index idle = 0;                                      // iterations that have not halved it
     for (;;) {
-      const Real norm = system.residual_norm();
-      const Real scale = system.force_scale();
+      const Real norm = system.forces().norm;
+      const Real scale = system.forces().scale();
       report.residual = scale > 0 ? norm / scale : 0;
       if (!driven) {
-        if (norm <= options.tolerance * scale) return report;
+        if (norm <= options.tolerance * scale) {
+          if (const Real c = contraction(report.residual); c > 0) contraction_ = c;
+          return report;
+        }
         if (norm <= 64 * std::numeric_limits<Real>::epsilon() * known_scale) {  // nothing beside what has been
           report.residual = norm / known_scale;
           return report;
         }
         const Real bound = system.roundoff(u);
         if (norm <= bound) {
-          if (system.only_moves(bound)) {
+          if (only_moves(system, bound)) {
             report.residual = 0;  // of forces that are none
             return report;
           }
@@ -110,70 +111,79 @@ class Newton {
         }
       }
       if (report.iterations == options.max_iterations) {
-        report.trouble.cause = Cause::not_converged;
+        report.failure.cause = FailureCause::not_converged;
         return report;
       }
-      if ((report.trouble = direction(system, report))) return report;
+      if (!system.has_tangent()) {  // convergence was predicted, and did not come
+        ++counts.evaluations;
+        ++counts.evaluations_repeated;
+        ++counts.tangents_unused;
+        if ((report.failure = iterate.add_tangent(u, time, dt))) return report;
+      }
+      const Want want = converges_next(report.residual) ? Want::residual : Want::tangent;
+      last_residual_ = report.residual;
+      if ((report.failure = direction(system, report))) return report;
       ++report.iterations;
       change_.setZero();
       system.dofs().scatter_add(-1, step_, change_);
       if (driven) change_ += *driven;
-      system.follow(change_);
+      iterate.predict(change_);
 
       if (driven) {  // the guess was not on the constraints yet: there is no residual to compare with
         u += change_;
-        system.move(1);
+        iterate.set_step(1);
         driven = nullptr;
-        if ((report.trouble = system.iterate(u, time, dt))) return report;
+        if ((report.failure = evaluate(iterate, u, time, dt, Want::tangent))) return report;
         continue;
       }
       start_ = u;
-      const Real merit = system.merit();
+      const Real merit = iterate.merit();
       Real length = 1;
-      Trouble trouble;
-      const auto go = [&] {
+      Failure failure;
+      const auto go = [&](Want wanted) {
         u = start_ + length * change_;
-        system.move(length);
-        trouble = system.iterate(u, time, dt);
+        iterate.set_step(length);
+        failure = evaluate(iterate, u, time, dt, wanted);
       };
-      go();
-      if constexpr (near_tangent)
-        if (trouble || !(system.merit() < 0.25 * merit)) {
-          if ((report.trouble = correct(system, u, time, dt))) return report;
-          go();
+      go(want);
+      if constexpr (inexact_tangent)
+        if (failure || !(iterate.merit() < 0.25 * merit)) {
+          if ((report.failure = correct(iterate, u, time, dt))) return report;
+          go(Want::tangent);
         }
       for (Index cut = 0;; ++cut) {
-        const bool better = !trouble && system.merit() < merit;
-        if (better || (!trouble && !options.line_search)) {
+        const bool better = !failure && iterate.merit() < merit;
+        if (better || (!failure && !options.line_search)) {
           stalls = 0;
           break;
         }
         if (cut == options.max_cuts) {
-          if (trouble) break;
+          if (failure) break;
           ++stalls;
           break;
         }
         ++report.line_search_cuts;
         ++counts.line_search_cuts;
-        const Real ratio = trouble ? 4.0 : system.merit() / merit;
+        const Real ratio = failure ? 4.0 : iterate.merit() / merit;
         length *= std::clamp(0.5 / ratio, 0.25, 0.5);
-        go();
+        go(Want::tangent);
       }
-      if (trouble || stalls > 1) {
-        const Real left = system.residual_norm();
-        if (!trouble && left <= system.roundoff(u)) {  // it has come to its floor
-          if (system.force_scale() > 0) report.residual = left / system.force_scale();
+      if (failure || stalls > 1) {
+        const Real left = system.forces().norm;
+        if (!failure && left <= system.roundoff(u)) {  // it has come to its floor
+          if (system.forces().scale() > 0) report.residual = left / system.forces().scale();
           return report;
         }
-        report.trouble = trouble ? trouble : Trouble{Cause::stalled, {}};
+        report.failure = failure ? failure : Failure{FailureCause::stalled, {}};
         return report;
       }
     }
   }
 
-  /// What the solver remembers from one system to the next and its solutions depend on, where it says so.
+  /// What outlives a step and later solutions depend on: the memory of the solver, where it has one.
   template <class System>
-  void serialize([[maybe_unused]] Archive& archive, [[maybe_unused]] System& system) {
+  void serialize(Archive& archive, [[maybe_unused]] System& system) {
+    archive("Newton's method, contraction", contraction_);
     if constexpr (requires { solver_.serialize(archive); }) {
       prepare(system);  // so that the analysis does not take it back
       solver_.serialize(archive);
@@ -189,38 +199,65 @@ class Newton {
     step_.setZero(system.dofs().unknowns());
     start_.setZero(system.dofs().components());
     change_ = start_;
-    if constexpr (near_tangent) probes_.krylov.resize(system.dofs().unknowns());
+    if constexpr (inexact_tangent) probes_.krylov.resize(system.dofs().unknowns());
     if constexpr (is_direct<Solver>) digits_.resize(system.dofs().unknowns());
     analyzed_ = system.pattern_revision();
   }
 
+  // Evaluates the iterate, and counts.
+  template <class Iterate>
+  Failure evaluate(Iterate& iterate, const Field& u, Real time, Real dt, Want want, const Field* driven = nullptr) {
+    ++counts.evaluations;
+    if (want != Want::residual) ++counts.tangents_unused;  // until it is factorised
+    return iterate.evaluate(u, time, dt, want, driven);
+  }
+  // Whether the next full step is likely to converge, so that its tangent would not be factorised: where Newton's
+  // method converges, the residual falls to a constant times the square of the one before. That is the larger of the
+  // ones that the last two iterates and the end of the last solution show.
+  bool converges_next(Real residual) const {
+    const Real constant = std::max(contraction_, contraction(residual));
+    return constant > 0 && constant * residual * residual <= options.tolerance;
+  }
+  // That of the last two iterates; 0 where there is one, or the first is out of the reach of such a law.
+  Real contraction(Real residual) const {
+    return last_residual_ > 0 && last_residual_ < 1 ? residual / (last_residual_ * last_residual_) : 0;
+  }
+  // Whether the forces of the last evaluation are round-off, and supports alone act on the body: it only moves, free of
+  // stress, and would never be in balance but for its round-off.
+  template <class System>
+  static bool only_moves(const System& system, Real roundoff) {
+    return contact_summary(system.pairs()).touching == 0 && system.forces().external.isZero(0) &&
+           system.forces().internal.norm() <= roundoff;
+  }
+
   // step_ = K^-1 R.
   template <class System>
-  Trouble direction(System& system, NewtonReport& report) {
-    if (step_.size() == 0) return {};  // nothing to solve for; the stiff relations close all the same
+  Failure direction(System& system, NewtonReport& report) {
+    if (step_.size() == 0) return {};  // nothing to solve for; the condensed unknowns close all the same
     {
       const Stopwatch watch(system.timings.factorization);
       const Factorization f = solver_.factorize(system.matrix());
       ++counts.factorizations;
+      --counts.tangents_unused;
       if (f == Factorization::indefinite) ++counts.indefinite_factorizations;
-      if (f == Factorization::failed) return {Cause::singular_matrix, {}};
+      if (f == Factorization::failed) return {FailureCause::singular_matrix, {}};
       if constexpr (requires { solver_.factor_bytes(); })
         counts.factor_bytes = std::max(counts.factor_bytes, std::size_t(solver_.factor_bytes()));
       if constexpr (tells_pivots) report.negative_pivots = Index(solver_.negative_pivots());
     }
     if constexpr (is_direct<Solver>)
-      if (!std::exchange(measured_, true)) {
+      if (!std::exchange(judged_, true)) {
         const Stopwatch watch(system.timings.solve);
         const Real condition =
             digits_.condition(system.matrix(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
-        if (condition > FactorDigits::limit) return {Cause::singular_matrix, {}};
+        if (condition > FactorDigits::limit) return {FailureCause::singular_matrix, {}};
       }
     const Index corrections = corrections_so_far();
-    const bool solved = substitute(system, system.residual(), step_);
+    const bool solved = substitute(system, system.forces().residual, step_);
     counts.corrections += corrections_so_far() - corrections;
-    if (!solved || !step_.allFinite()) return {Cause::singular_matrix, {}};
+    if (!solved || !step_.allFinite()) return {FailureCause::singular_matrix, {}};
     // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
-    if (step_.lpNorm<Eigen::Infinity>() > 1e6 * system.extent()) return {Cause::singular_matrix, {}};
+    if (step_.lpNorm<Eigen::Infinity>() > 1e6 * system.body().extent()) return {FailureCause::singular_matrix, {}};
     return {};
   }
 
@@ -237,46 +274,47 @@ class Newton {
     return solver_.solve(right_hand_side.data(), solution.data());
   }
 
-  // Makes step_, which the near tangent gave, the step of the tangent itself, whose products are differences of the
+  // Makes step_, which the inexact tangent gave, the step of the tangent itself, whose products are differences of the
   // residual along steps short enough for round-off and curvature to be alike. From start_, and back to it.
-  template <class System>
-  Trouble correct(System& system, Field& u, Real time, Real dt) requires near_tangent {
+  template <class Iterate>
+  Failure correct(Iterate& iterate, Field& u, Real time, Real dt) requires inexact_tangent {
     constexpr Real tolerance = 1e-3, length = 1e-8;
     constexpr Index most = 30;
-    MinimalResidual& krylov = probes_.krylov;
+    auto& system = iterate.system();
+    Orthodir& krylov = probes_.krylov;
     u = start_;
-    system.move(0);
+    iterate.set_step(0);
     change_.setZero();
-    system.follow(change_, 0);  // what the system notes of an iteration goes back there as well
-    system.move(0);
-    if (const Trouble t = system.iterate(u, time, dt)) return t;
-    probes_.residual = system.residual();
+    iterate.predict(change_, 0);  // what the system notes of an iteration goes back there as well
+    iterate.set_step(0);
+    if (const Failure f = evaluate(iterate, u, time, dt, Want::residual)) return f;
+    probes_.residual = system.forces().residual;
     krylov.begin(probes_.residual);
     while (krylov.count() < most && krylov.residual().norm() > tolerance * probes_.residual.norm()) {
       Field& z = krylov.step();
       if (krylov.count() == 0)
         z = step_;
       else if (!substitute(system, krylov.next(), z))
-        return {Cause::singular_matrix, {}};
-      const Real part = length * system.extent() / z.template lpNorm<Eigen::Infinity>();
+        return {FailureCause::singular_matrix, {}};
+      const Real part = length * system.body().extent() / z.template lpNorm<Eigen::Infinity>();
       change_.setZero();
       system.dofs().scatter_add(-part, z, change_);  // the way the step goes: there may be a kink
-      system.follow(change_, 0);
+      iterate.predict(change_, 0);
       u = start_ + change_;
-      system.move(1);
-      const Trouble trouble = system.iterate(u, time, dt);
-      system.move(0);
-      if (trouble) break;
+      iterate.set_step(1);
+      const Failure failure = evaluate(iterate, u, time, dt, Want::residual);
+      iterate.set_step(0);
+      if (failure) break;
       ++counts.corrections;
-      krylov.response() = (probes_.residual - system.residual()) / part;
+      krylov.response() = (probes_.residual - system.forces().residual) / part;
       if (!krylov.add()) break;
     }
     u = start_;
-    if (const Trouble t = system.iterate(u, time, dt)) return t;
+    if (const Failure f = evaluate(iterate, u, time, dt, Want::residual)) return f;
     step_ = krylov.solution();
     change_.setZero();
     system.dofs().scatter_add(-1, step_, change_);
-    system.follow(change_);
+    iterate.predict(change_);
     return {};
   }
 
@@ -288,12 +326,14 @@ class Newton {
   Solver solver_;
   Field step_, start_, change_;
   struct Probes {
-    MinimalResidual krylov;
+    Orthodir krylov;
     Field residual;
   };
-  [[no_unique_address]] Only<near_tangent, Probes, Solver> probes_;
-  [[no_unique_address]] Only<is_direct<Solver>, FactorDigits, Newton> digits_;
-  bool measured_ = false;  // whether the matrix of this attempt has been
+  [[no_unique_address]] StoredIf<inexact_tangent, Probes, Solver> probes_;
+  [[no_unique_address]] StoredIf<is_direct<Solver>, FactorDigits, Newton> digits_;
+  bool judged_ = false;     // whether the matrix of this attempt has been
+  Real last_residual_ = 0;  // over the force scale
+  Real contraction_ = 0;    // at the end of the last solution: a residual over the square of the one before
   Index analyzed_ = 0;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/assembly/system.hpp>
 #include <stickslip/solve/error_estimates.hpp>
 #include <stickslip/solve/newton.hpp>
+#include <stickslip/solve/system.hpp>
 
 namespace stickslip {
 
@@ -14,12 +14,12 @@ struct StepReport {
   Real dt = 0;
   Index iterations = 0;        ///< Newton iterations of this step, those of rejected attempts not counted
   Index rejected = 0;          ///< attempts that were thrown away before it
-  Index passes = 1;            ///< over the step; more than one with multipliers or a bound that is brought up to date
+  Index outer_iterations = 1;  ///< over the step; more than one with multipliers or a bound that is brought up to date
   Index negative_pivots = -1;  ///< of the tangent, its negative eigenvalues; -1 where the solver does not tell
   Real residual = 0;           ///< over the force scale
   ContactSummary contact{};
   /// Part of the friction bounds that the law has not seen yet: their changes, summed over the nodes, over their sum
-  /// (theory.md, eq. 5.11); zero for laws that follow the current pressure.
+  /// (theory.md, eq. 5.12); zero for laws that follow the current pressure.
   Real lag = 0;
   Real local_error = 0;  ///< of the time scheme in this step (theory.md, eq. 7.8) [length]; 0 without inertia
   Real work = 0;         ///< done on the body in the step: by deforming it and by friction [energy]
@@ -31,7 +31,7 @@ struct RunReport {
   Index steps = 0;
   Index iterations = 0;  ///< of accepted and rejected attempts
   Index rejected_steps = 0;
-  Index passes = 0;  ///< of accepted and rejected attempts
+  Index outer_iterations = 0;  ///< of accepted and rejected attempts
   WorkCounts work{};
   Timings timings{};
   Real max_penetration = 0;  ///< [length]
@@ -40,7 +40,7 @@ struct RunReport {
   Real total_work = 0;       ///< sum of the magnitudes of the steps' work [energy]
   ErrorEstimates errors{};   ///< the steps' means, weighted with their work
 
-  void book(Real step_work, const ErrorEstimates& step) {
+  void add(Real step_work, const ErrorEstimates& step) {
     total_work += step_work;
     if (!(total_work > 0)) return;
     const Real share = step_work / total_work;

@@ -22,22 +22,23 @@ struct MarchOptions {
   Real initial = 0;             ///< first automatic step; 0: a hundredth of the way to the end
   Real largest = 0;             ///< largest automatic step; 0: no limit
   Real smallest = 0;            ///< below it a step is given up; 0: 1e-9 of the way
-  Index wanted_iterations = 4;  ///< automatic steps grow below this count and shrink above
+  Index target_iterations = 4;  ///< automatic steps grow below this count and shrink above
   Real tolerance = 1e-5;        ///< of Newton's method, see NewtonOptions
   Real time_tolerance = 0;      ///< with inertia: limit of a step's local error (theory.md, eq. 7.8) [length]; 0: none
-  Real lag_tolerance = 0;   ///< that automatic steps aim at, see ErrorEstimates::lag (theory.md, eq. 6.6) [-]; 0: none
+  Real lag_tolerance = 0;   ///< that automatic steps aim at, see ErrorEstimates::lag (theory.md, eq. 6.10) [-]; 0: none
   Real step_tolerance = 0;  ///< the same for ErrorEstimates::time
   Index max_iterations = 20;  ///< of Newton's method
-  Real pass_tolerance =
-      1e-4;               ///< of passes over a step, where the bundle takes them (theory.md, eq. 4.18 and 5.29) [-]
-  Index max_passes = 30;  ///< over a step
-  Index space_every = 0;  ///< steps from one estimate of the mesh's error to the next; 0: none
+  Real outer_tolerance =
+      1e-4;              ///< of passes over a step, where the model takes them (theory.md, eq. 4.18 and 5.31) [-]
+  Index max_outer = 30;  ///< over a step
+  Index mesh_error_interval = 0;  ///< steps from one estimate of the mesh's error to the next; 0: none
   bool line_search = true;
-  bool watch_ways = true;  ///< reject a step over which a node goes through a tool (theory.md, eq. 4.19)
-  bool watch_lag = true;   ///< probe lagging bounds that swing, and at the end, and give up where they feed back
+  bool detect_tunnelling = true;  ///< reject a step over which a node goes through a tool (theory.md, eq. 4.20)
+  bool detect_lag_instability =
+      true;  ///< probe lagging bounds that swing, and at the end, and give up where they feed back
   Real energy_gain =
       1e-3;  ///< with inertia: energy that the time scheme may gain over the largest of the work done and
-             ///< the energy at the start (theory.md, eq. 7.16); beyond it the run warns [-]; 0: not looked at
+             ///< the energy at the start (theory.md, eq. 7.17); beyond it the run warns [-]; 0: not looked at
   bool refuse_energy_gain = false;  ///< ends the run there instead
   std::vector<Real> stops{};        ///< times that a step must end at
 
@@ -50,12 +51,12 @@ struct MarchOptions {
     require::finite(initial, "march: the first step size");
     require::finite(largest, "march: the largest step size");
     require::finite(smallest, "march: the smallest step size");
-    if (wanted_iterations < 1) refuse("wanted_iterations must be positive");
+    if (target_iterations < 1) refuse("target_iterations must be positive");
     if (!(tolerance > 0 && tolerance < 1)) refuse("the tolerance must lie between 0 and 1");
     if (max_iterations < 1) refuse("needs at least one iteration");
-    if (max_passes < 1) refuse("needs at least one pass");
-    if (space_every < 0) refuse("the steps between estimates must not be negative");
-    require::positive(pass_tolerance, "march: the pass tolerance");
+    if (max_outer < 1) refuse("needs at least one pass");
+    if (mesh_error_interval < 0) refuse("the steps between estimates must not be negative");
+    require::positive(outer_tolerance, "march: the pass tolerance");
     require::not_negative(time_tolerance, "march: the time tolerance");
     require::not_negative(lag_tolerance, "march: the lag tolerance");
     require::not_negative(step_tolerance, "march: the step tolerance");
@@ -129,7 +130,7 @@ class StepControl {
       return;
     }
     const Real before = size_;
-    Real factor = std::clamp(std::sqrt(Real(options_.wanted_iterations) / std::max<Index>(iterations, 1)), 0.5, 1.5);
+    Real factor = std::clamp(std::sqrt(Real(options_.target_iterations) / std::max<Index>(iterations, 1)), 0.5, 1.5);
     // Where a smaller step did not take fewer iterations, still smaller ones are no use.
     if (factor >= 1) last_shrunk_ = 0;
     if (factor < 1 && last_shrunk_ > 0 && iterations >= last_shrunk_) factor = 1;
@@ -154,15 +155,16 @@ class StepControl {
 
   /// Where the run is. Of the options, equal steps must be the same; automatic ones may go on to another end.
   void serialize(Archive& archive) {
-    archive.same("choice of steps", options_.steps > 0 ? std::to_string(options_.steps) + " equal steps" : "automatic");
-    if (options_.steps > 0) archive.same("end", exact(options_.end));
+    archive.check_equal("choice of steps",
+                        options_.steps > 0 ? std::to_string(options_.steps) + " equal steps" : "automatic");
+    if (options_.steps > 0) archive.check_equal("end", round_trip(options_.end));
     archive("run, begin", begin_);
     archive("run, time", time_);
     archive("run, step size", size_);
     archive("run, steps of the grid", done_);
     archive("run, iterations at the last cut", last_shrunk_);
     archive("run, steps before the size grows", wait_);
-    if (archive.gives()) smallest_ = smallest();
+    if (archive.loading()) smallest_ = smallest();
   }
 
  private:

@@ -43,9 +43,9 @@ class Warnings {
         words.insert(words.end(), word->c_str(), word->c_str() + word->size() + 1);
       numbers.insert(numbers.end(), {list_[k].step, list_[k].count});
     }
-    archive.any_length("run, warnings", words);
-    archive.any_length("run, times of warnings", numbers);
-    if (!archive.gives()) return;
+    archive.resizable("run, warnings", words);
+    archive.resizable("run, times of warnings", numbers);
+    if (!archive.loading()) return;
     list_.clear();
     subjects_.clear();
     auto at = words.begin();

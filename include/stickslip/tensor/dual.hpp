@@ -7,8 +7,8 @@
 
 namespace stickslip {
 
-/// Dual number with `n` directions: a value and its exact derivatives along them. The tangent checks send it through
-/// the kernels that the solver runs with Real. Comparisons look at the value.
+/// Dual number with `n` directions: a value and its exact derivatives along them. The tangent checks run the kernels of
+/// the solver with it in place of Real. Comparisons use the value.
 template <int n>
 struct Dual {
   Real value = 0;
@@ -47,7 +47,7 @@ struct Dual {
   friend bool operator==(const Dual& a, const Dual& b) { return a.value == b.value; }
   friend bool operator!=(const Dual& a, const Dual& b) { return a.value != b.value; }
 
-  /// f(x) given the value and the derivative of f.
+  /// Chain rule: f(x) from the value and the derivative of f.
   Dual chain(Real f, Real df) const { return {f, df * slope}; }
 
   friend Dual sqrt(const Dual& x) {

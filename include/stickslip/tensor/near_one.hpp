@@ -7,12 +7,12 @@
 
 namespace stickslip {
 
-/// ln(1 + x), to a few roundings whatever the size of x. In the time of a logarithm, which `log1p` is not.
+/// ln(1 + x), with a relative error of a few roundings for every x. As fast as a logarithm, unlike `log1p`.
 template <class S>
 S log_one_plus(const S& x) {
   using std::log;
-  if (std::abs(value_of(x)) > 0.1) return log(S(1) + x);  // the digits of x that 1 + x loses are few
-  // 2 artanh t, its series in pairs, which are evaluated side by side.
+  if (std::abs(value_of(x)) > 0.1) return log(S(1) + x);  // 1 + x loses few digits of x
+  // Series of 2 artanh t, in pairs of terms that the processor evaluates in parallel.
   const S t = x / (S(2) + x), s = t * t, s2 = s * s;
   return S(2) * t * ((S(1) + s * S(1. / 3)) + s2 * ((S(1. / 5) + s * S(1. / 7)) + s2 * (S(1. / 9) + s * S(1. / 11))));
 }

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-/// Sums and products of small vectors and matrices as loops. Each Eigen expression is a class of its own, which takes
-/// the compiler twenty milliseconds: too much for what every bundle instantiates anew.
+/// Sums and products of small vectors and matrices as loops. Each Eigen expression is a separate class, which costs
+/// twenty milliseconds of compile time: too much for code that every model instantiates again.
 namespace stickslip {
 
 /// to += factor a.
@@ -76,7 +76,7 @@ Mat<S, rows, columns> transposed_product(const Mat<S, inner, rows>& a, const Mat
   return r;
 }
 
-/// a b^T; of two vectors the dyad.
+/// a b^T; for two vectors the dyad.
 template <class S, int rows, int inner, int columns>
 Mat<S, rows, columns> product_transposed(const Mat<S, rows, inner>& a, const Mat<S, columns, inner>& b) {
   Mat<S, rows, columns> r;

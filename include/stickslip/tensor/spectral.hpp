@@ -10,14 +10,14 @@ namespace stickslip {
 
 /// Principal values and directions of a symmetric tensor: t = sum_A values[A] n_A n_A^T, n_A = column A of
 /// `directions`.
-template <class S, class Shape>
+template <class S, class TensorPattern>
 struct Spectral {
   Vec<S, 3> values;
-  Tensor<S, Shape> directions;
+  Tensor<S, TensorPattern> directions;
 };
 
-/// Closed form in the plane; the third direction is the normal. The smaller value comes from the determinant, so that a
-/// nearly singular positive tensor keeps its digits. Equal values give the coordinate axes.
+/// Closed form in the plane; the third direction is the normal. The smaller value comes from the determinant, so that
+/// it keeps its digits in a nearly singular positive tensor. Equal values give the coordinate axes.
 template <class S>
 Spectral<S, Planar> spectral(const Tensor<S, Planar>& t) {
   using std::sqrt;
@@ -39,7 +39,7 @@ Spectral<S, Planar> spectral(const Tensor<S, Planar>& t) {
   const S small = (t(0, 0) * t(1, 1) - shear * shear) / large;
   r.values[0] = value_of(mean) >= 0 ? large : small;
   r.values[1] = value_of(mean) >= 0 ? small : large;
-  // Half-angle formulas, in the form that does not cancel.
+  // Half-angle formulas, in the form without cancellation.
   S c, s;
   if (value_of(half) >= 0) {
     c = sqrt(S(0.5) * (radius + half) / radius);
@@ -55,10 +55,10 @@ Spectral<S, Planar> spectral(const Tensor<S, Planar>& t) {
   return r;
 }
 
-/// Cyclic Jacobi rotations (theory.md, eq. 3.26): no branch depends on how near the values lie to each other. Equal
-/// values give any axes of their plane, of a diagonal tensor the coordinate axes. A dual number's slopes are exact
-/// where the values differ; where they coincide those of the directions are zero, and those of the values still serve a
-/// function that is symmetric in them.
+/// Cyclic Jacobi rotations (theory.md, eq. 3.27), without branches on the differences of the values. Equal values give
+/// arbitrary axes of their plane, a diagonal tensor the coordinate axes. Derivatives by dual numbers are exact for
+/// distinct values; for equal values those of the directions are zero, and those of the values remain correct in
+/// functions that are symmetric in them.
 template <class S>
 Spectral<S, Spatial> spectral(const Tensor<S, Spatial>& t) {
   using std::sqrt;
@@ -103,9 +103,9 @@ Spectral<S, Spatial> spectral(const Tensor<S, Spatial>& t) {
     }
     return small;
   };
-  // Four sweeps serve; the bound is for a tensor that is not finite.
+  // Four sweeps suffice; the limit is for a tensor that is not finite.
   for (int sweeps = 0; sweeps < 16 && !diagonal(); ++sweeps) sweep();
-  if constexpr (!std::is_same_v<S, Real>) sweep();  // carries the derivatives
+  if constexpr (!std::is_same_v<S, Real>) sweep();  // propagates the derivatives
   return r;
 }
 

@@ -9,7 +9,7 @@
 
 namespace stickslip {
 
-/// Components that a second-order tensor can have in plane strain and axisymmetry: an in-plane 2 x 2 block and the
+/// Non-zero components of a second-order tensor in plane strain and axisymmetry: an in-plane 2 x 2 block and the
 /// component normal to the plane. Order: 11, 12, 21, 22, 33.
 struct Planar {
   static constexpr int dim = 2;             ///< space dimension of the mesh
@@ -34,10 +34,11 @@ struct Spatial {
   static constexpr bool couples(int, int) { return true; }
 };
 
-/// Second-order tensor of the non-zero pattern `Shape`; `(i, j)` count from 0 to 2 and must be a pair of the shape.
-template <class S, class Shape>
+/// Second-order tensor with the non-zero pattern `TensorPattern`; `(i, j)` count from 0 to 2 and must be a pair of the
+/// pattern.
+template <class S, class TensorPattern>
 struct Tensor {
-  using Components = Vec<S, Shape::size>;
+  using Components = Vec<S, TensorPattern::size>;
   Components v = Components::Zero();
 
   static Tensor identity() {
@@ -45,14 +46,14 @@ struct Tensor {
     for (int i = 0; i < 3; ++i) one(i, i) = S(1);
     return one;
   }
-  S& operator()(int i, int j) { return v[Shape::at(i, j)]; }
-  const S& operator()(int i, int j) const { return v[Shape::at(i, j)]; }
+  S& operator()(int i, int j) { return v[TensorPattern::at(i, j)]; }
+  const S& operator()(int i, int j) const { return v[TensorPattern::at(i, j)]; }
 };
 
-/// Symmetric second-order tensor, stored once: the memory of materials, so without the padding of an alignment.
-template <class S, class Shape>
+/// Symmetric second-order tensor, each component stored once and unaligned: without padding in material states.
+template <class S, class TensorPattern>
 struct SymmetricTensor {
-  using Components = Eigen::Matrix<S, Shape::symmetric_size, 1, Eigen::DontAlign>;
+  using Components = Eigen::Matrix<S, TensorPattern::symmetric_size, 1, Eigen::DontAlign>;
   Components v = Components::Zero();
 
   static SymmetricTensor identity() {
@@ -60,19 +61,19 @@ struct SymmetricTensor {
     for (int i = 0; i < 3; ++i) one.v[i] = S(1);
     return one;
   }
-  Tensor<S, Shape> full() const {
-    Tensor<S, Shape> t;
-    for (int a = 0; a < Shape::symmetric_size; ++a) {
-      const auto [i, j] = Shape::symmetric_pairs[static_cast<std::size_t>(a)];
+  Tensor<S, TensorPattern> full() const {
+    Tensor<S, TensorPattern> t;
+    for (int a = 0; a < TensorPattern::symmetric_size; ++a) {
+      const auto [i, j] = TensorPattern::symmetric_pairs[static_cast<std::size_t>(a)];
       t(i, j) = t(j, i) = v[a];
     }
     return t;
   }
 };
 
-/// Derivative of one tensor by another: `(a, b)` is d(component a) / d(component b) in the order of `Shape::pairs`.
-template <class S, class Shape>
-using Moduli = Mat<S, Shape::size>;
+/// Derivative of one tensor by another: `(a, b)` is d(component a) / d(component b) in the order of the `pairs`.
+template <class S, class TensorPattern>
+using Moduli = Mat<S, TensorPattern::size>;
 
 template <class S>
 S determinant(const Tensor<S, Planar>& t) {
@@ -92,13 +93,13 @@ Tensor<S, Planar> inverse(const Tensor<S, Planar>& t) {
 }
 
 /// 1 + t.
-template <class S, class Shape>
-Tensor<S, Shape> plus_one(Tensor<S, Shape> t) {
+template <class S, class TensorPattern>
+Tensor<S, TensorPattern> plus_one(Tensor<S, TensorPattern> t) {
   for (int i = 0; i < 3; ++i) t(i, i) += S(1);
   return t;
 }
 
-/// determinant(1 + t) - 1, without taking 1 from what is nearly 1.
+/// determinant(1 + t) - 1, without cancellation for small t.
 template <class S>
 S determinant_less_one(const Tensor<S, Planar>& t) {
   const S in_plane = t(0, 0) + t(1, 1) + (t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0));
@@ -147,41 +148,41 @@ Tensor<S, Spatial> inverse(const Tensor<S, Spatial>& t) {
   return r;
 }
 
-template <class S, class Shape>
-Tensor<S, Shape> transpose(const Tensor<S, Shape>& t) {
-  Tensor<S, Shape> r;
-  for (const auto& [i, j] : Shape::pairs) r(j, i) = t(i, j);
+template <class S, class TensorPattern>
+Tensor<S, TensorPattern> transpose(const Tensor<S, TensorPattern>& t) {
+  Tensor<S, TensorPattern> r;
+  for (const auto& [i, j] : TensorPattern::pairs) r(j, i) = t(i, j);
   return r;
 }
 
 /// a b, that is a_ik b_kj.
-template <class S, class Shape>
-Tensor<S, Shape> product(const Tensor<S, Shape>& a, const Tensor<S, Shape>& b) {
-  Tensor<S, Shape> r;
-  for (const auto& [i, j] : Shape::pairs)
+template <class S, class TensorPattern>
+Tensor<S, TensorPattern> product(const Tensor<S, TensorPattern>& a, const Tensor<S, TensorPattern>& b) {
+  Tensor<S, TensorPattern> r;
+  for (const auto& [i, j] : TensorPattern::pairs)
     for (int k = 0; k < 3; ++k)
-      if (Shape::couples(i, k)) r(i, j) += a(i, k) * b(k, j);
+      if (TensorPattern::couples(i, k)) r(i, j) += a(i, k) * b(k, j);
   return r;
 }
 
-template <class S, class Shape>
-S trace(const Tensor<S, Shape>& t) {
+template <class S, class TensorPattern>
+S trace(const Tensor<S, TensorPattern>& t) {
   return t(0, 0) + t(1, 1) + t(2, 2);
 }
 
 /// Kirchhoff stress tau = P F^T of the first Piola-Kirchhoff stress P (force per reference area; first index spatial).
-template <class S, class Shape>
-Tensor<S, Shape> kirchhoff(const Tensor<S, Shape>& P, const Tensor<S, Shape>& F) {
+template <class S, class TensorPattern>
+Tensor<S, TensorPattern> kirchhoff(const Tensor<S, TensorPattern>& P, const Tensor<S, TensorPattern>& F) {
   return product(P, transpose(F));
 }
 
 /// von Mises equivalent of a symmetric stress.
-template <class S, class Shape>
-S von_mises(const Tensor<S, Shape>& stress) {
+template <class S, class TensorPattern>
+S von_mises(const Tensor<S, TensorPattern>& stress) {
   using std::sqrt;
   const S mean = trace(stress) / S(3);
   S sum = S(0);
-  for (const auto& [i, j] : Shape::pairs) {
+  for (const auto& [i, j] : TensorPattern::pairs) {
     const S d = stress(i, j) - (i == j ? mean : S(0));
     sum += d * d;
   }

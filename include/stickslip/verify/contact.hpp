@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/assembly/contact_kernel.hpp>
+#include <stickslip/contact/node_kernel.hpp>
 #include <stickslip/verify/report.hpp>
 
 #include <vector>
@@ -10,31 +10,31 @@ namespace stickslip::verify {
 
 /// One contact node against one tool at rest, without a body.
 template <class Enforcement, class Law, class Friction, class Tool, int dim = 2>
-struct LoneNode {
+struct SingleNode {
   Enforcement enforcement{};
   Law law{};
   Friction friction{};
   const Tool& tool;
   Real weight = 1;
-  Real area = 1;  ///< reference area of the node [length^2], for laws that ask for it
+  Real area = 1;  ///< reference area of the node [length^2], for laws that depend on it
 
   template <class S>
   using Memory = NodeMemory<S, dim, Enforcement, Friction>;
 
-  /// Contact at the place x on the memory `old`.
+  /// Contact at the position x [length] with the memory `old`.
   template <class S>
   NodeContact<S, dim, Memory<S>> at(const Vec<S, dim>& x, const Memory<S>& old, Real dt = 1) const {
     const SurfacePoint<S, dim> point = surface_point<S, dim>(tool, x);
-    return at_pressure(point, settled_pressure(enforcement, weight, point, old), old, dt);
+    return at_pressure(point, penalty_pressure(enforcement, weight, point, old), old, dt);
   }
 
-  /// The same at a pressure that is not the one of the gap.
+  /// The same with the condensed pressure open: at `pressure` [force] instead of the pressure of the gap.
   RelationSample<dim> open(const Vec<Real, dim>& x, const Memory<Real>& old, Real pressure, Real dt = 1) const {
     const auto node = at_pressure<Real>(surface_point<Real, dim>(tool, x), pressure, old, dt);
     return {node.force, node.stiffness + node.coupling, node.pressure};
   }
 
-  /// The memory that all but the last place of a path leave; the first place is where the node starts.
+  /// Memory after all but the last position of a path; the node starts at the first.
   template <class S>
   Memory<S> preloaded(const std::vector<Vec<Real, dim>>& path, Real dt = 1) const {
     Memory<S> memory{};
@@ -42,7 +42,7 @@ struct LoneNode {
       Vec<S, dim> x;
       for (int c = 0; c < dim; ++c) x[c] = S(path[i][c]);
       if constexpr (Friction::active)
-        if (i == 0) memory.friction.place = surface_point<S, dim>(tool, x).place;
+        if (i == 0) memory.friction.surface_coordinate = surface_point<S, dim>(tool, x).surface_coordinate;
       memory = at<S>(x, memory, dt).memory;
     }
     return memory;
@@ -52,16 +52,17 @@ struct LoneNode {
   template <class S>
   NodeContact<S, dim, Memory<S>> at_pressure(const SurfacePoint<S, dim>& point, const S& pressure, const Memory<S>& old,
                                              Real dt) const {
-    Vec<S, place_components<dim>> slipped = Vec<S, place_components<dim>>::Zero();
-    if constexpr (Friction::active) slipped = moved<S, dim>(tool, point.place, old.friction.place);
+    Vec<S, surface_coordinates<dim>> slipped = Vec<S, surface_coordinates<dim>>::Zero();
+    if constexpr (Friction::active)
+      slipped = relative_displacement<S, dim>(tool, point.surface_coordinate, old.friction.surface_coordinate);
     return contact_node<S, dim>(enforcement, law, friction, weight, point, slipped, old, pressure, dt, area);
   }
 };
 
-/// Tangent of contact and friction of a node at the last of a path of places. The slope of the force jumps where the
-/// node touches, and where it begins to slide: stay off these by more than two `step`s.
+/// Tangent of contact and friction of a node at the last position of a path. The derivative of the force jumps where
+/// the node touches and where it begins to slip: keep away from both by more than two `step`s [length].
 template <class Enforcement, class Law, class Friction, class Tool, int dim>
-TangentReport contact_tangent(const LoneNode<Enforcement, Law, Friction, Tool, dim>& node,
+TangentReport contact_tangent(const SingleNode<Enforcement, Law, Friction, Tool, dim>& node,
                               const std::vector<Vec<Real, dim>>& path, Real dt = 1, Real step = 1e-5) {
   const auto old = node.template preloaded<Real>(path, dt);
   const auto now = node.template at<Real>(path.back(), old, dt);

@@ -9,13 +9,13 @@
 
 namespace stickslip::verify {
 
-/// One element alone: reference coordinates (one row a node) and what it is made of.
+/// A single element: kinematics, material and reference coordinates X (one row per node) [length].
 template <class Element, class Kinematics, class Material>
-struct LoneElement {
+struct SingleElement {
   static constexpr int dofs = Element::nodes * Element::dim;
-  using Shape = typename Kinematics::Shape;
+  using TensorPattern = typename Kinematics::TensorPattern;
   template <class S>
-  using State = typename Material::template State<S, Shape>;
+  using State = typename Material::template State<S, TensorPattern>;
   template <class S>
   using Result = ElementResult<S, dofs, Element::points, State<S>>;
   template <class S>
@@ -25,7 +25,7 @@ struct LoneElement {
   Material material{};
   Mat<Real, Element::nodes, Element::dim> X;
 
-  /// The geometry of the points, in any scalar.
+  /// Geometry of the quadrature points with the scalar type S.
   template <class S>
   typename Element::template Geometry<Kinematics, S> geometry_in() const {
     typename Element::template Geometry<Kinematics, S> geometry;
@@ -39,31 +39,31 @@ struct LoneElement {
     return geometry;
   }
 
-  /// Forces, tangent and memory at the displacements u. NaN forces where the element fails.
+  /// Forces, tangent and states at the displacements u [length]. NaN forces if the element fails.
   template <class S>
   Result<S> at(const Vec<S, dofs>& u, const Memory<S>& old, Real dt = 1) const {
     const typename Element::template Geometry<Kinematics, S> geometry = geometry_in<S>();
     Result<S> result;
-    if (Element::evaluate(geometry, material, u, old, dt, result) != Cause::none)
+    if (Element::evaluate(geometry, material, u, old, dt, result) != FailureCause::none)
       result.residual.setConstant(S(std::numeric_limits<Real>::quiet_NaN()));
     return result;
   }
 
-  /// The same with the element's stiff relation open, its variable at `value`.
+  /// The same with the element's condensed unknown open at `value`.
   RelationSample<dofs> open(const Vec<Real, dofs>& u, const Memory<Real>& old, Real value,
-                            Real dt = 1) const requires has_stiff_relation<Element> {
+                            Real dt = 1) const requires has_condensed_unknown<Element> {
     const auto geometry = geometry_in<Real>();
     Result<Real> result;
     RelationSample<dofs> sample;
     sample.relation.value = value;
-    if (Element::evaluate(geometry, material, u, old, dt, result, &sample.relation) != Cause::none)
+    if (Element::evaluate(geometry, material, u, old, dt, result, &sample.relation) != FailureCause::none)
       result.residual.setConstant(std::numeric_limits<Real>::quiet_NaN());
     sample.force = result.residual;
     sample.tangent = result.tangent;
     return sample;
   }
 
-  /// The memory that all but the last of a path of displacements leave.
+  /// States after all but the last displacements of a path.
   template <class S>
   Memory<S> preloaded(const std::vector<Vec<Real, dofs>>& path, Real dt = 1) const {
     Memory<S> memory;
@@ -76,9 +76,9 @@ struct LoneElement {
   }
 };
 
-/// The tangent of an element at the last of a path of nodal displacements, on the memory the others left.
+/// Tangent of an element at the last nodal displacements of a path, with the states after the others.
 template <class Element, class Kinematics, class Material>
-TangentReport element_tangent(const LoneElement<Element, Kinematics, Material>& element,
+TangentReport element_tangent(const SingleElement<Element, Kinematics, Material>& element,
                               const std::vector<Vec<Real, Element::nodes * Element::dim>>& path, Real dt = 1,
                               Real step = 1e-4) {
   constexpr int n = Element::nodes * Element::dim;
@@ -92,13 +92,13 @@ TangentReport element_tangent(const LoneElement<Element, Kinematics, Material>& 
   return {relative_error(tangent, by_duals), relative_error(tangent, by_differences), asymmetry(tangent)};
 }
 
-/// Objectivity of an element: a superposed `rotation` by `angle` [rad] turns its nodal forces. Relative error.
+/// Objectivity of an element: a superposed `rotation` by `angle` [rad] rotates its nodal forces. Relative error.
 template <class Element, class Kinematics, class Material>
-Real element_objectivity(const LoneElement<Element, Kinematics, Material>& element,
+Real element_objectivity(const SingleElement<Element, Kinematics, Material>& element,
                          const std::vector<Vec<Real, Element::nodes * Element::dim>>& path, Real angle, Real dt = 1) {
   static_assert(!Kinematics::hoop, "a rotation in the section leaves an axisymmetric body's axis");
   constexpr int dim = Element::dim, n = Element::nodes * dim;
-  const auto turn = rotation<typename Kinematics::Shape>(angle);
+  const auto turn = rotation<typename Kinematics::TensorPattern>(angle);
   Mat<Real, dim> Q;
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j) Q(i, j) = turn(i, j);

@@ -2,23 +2,23 @@
 #pragma once
 
 #include <stickslip/problem.hpp>
-#include <stickslip/solve/energy_books.hpp>
+#include <stickslip/solve/energy_gain.hpp>
 
 namespace stickslip::verify {
 
 using stickslip::Energies;
 
-/// Keeps the books of a run (theory.md, eq. 7.7): make one before the first step of a march, update it after every
-/// step. It costs a pass over the points a step and nothing where it is not used.
+/// Energy balance of a run (theory.md, eq. 7.7): construct it before the first step of a march and update it after
+/// every step. It costs a loop over the quadrature points per step.
 template <class Model>
-class EnergyLedger : public EnergyBooks<MechanicsOf<Model>, Scene<MechanicsOf<Model>>> {
+class EnergyBalance : public EnergyGain<MechanicsOf<Model>, Scene<MechanicsOf<Model>>> {
  public:
-  /// Begin after `Problem::march`, before its first step.
-  explicit EnergyLedger(const Scene<MechanicsOf<Model>>& problem)
-      : EnergyBooks<MechanicsOf<Model>, Scene<MechanicsOf<Model>>>(problem) {}
+  /// Construct it after `Problem::march`, before the first step.
+  explicit EnergyBalance(const Scene<MechanicsOf<Model>>& problem)
+      : EnergyGain<MechanicsOf<Model>, Scene<MechanicsOf<Model>>>(problem) {}
 };
 
 template <class Model>
-EnergyLedger(const Problem<Model>&) -> EnergyLedger<Model>;
+EnergyBalance(const Problem<Model>&) -> EnergyBalance<Model>;
 
 }  // namespace stickslip::verify

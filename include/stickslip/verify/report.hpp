@@ -2,7 +2,7 @@
 #pragma once
 
 #include <stickslip/base/types.hpp>
-#include <stickslip/policy/stiff_relation.hpp>
+#include <stickslip/policy/condensed_unknown.hpp>
 #include <stickslip/tensor/dual.hpp>
 #include <stickslip/tensor/tensor.hpp>
 
@@ -12,15 +12,14 @@
 
 namespace stickslip::verify {
 
-/// What a tangent is worth. Errors are relative: the largest component of the difference over the largest component of
-/// the tangent.
+/// Errors of a tangent, relative: the largest component of the difference over the largest component of the tangent.
 struct TangentReport {
   Real by_duals = 0;        ///< against dual numbers: round-off where the function is smooth
   Real by_differences = 0;  ///< against central differences of fourth order
-  Real asymmetry = 0;       ///< largest |K_ij - K_ji|, relative; exactly 0 for a matrix that is mirrored
+  Real asymmetry = 0;       ///< largest |K_ij - K_ji|, relative; exactly 0 if one triangle is a copy of the other
 };
 
-/// Largest component of a - b over the largest of b; of a itself where b is zero.
+/// Largest component of a - b over the largest of b; the largest of a if b is zero.
 template <class A, class B>
 Real relative_error(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
   const Real difference = (a - b).cwiseAbs().maxCoeff();
@@ -35,7 +34,7 @@ Real asymmetry(const Eigen::MatrixBase<K>& k) {
   return scale > 0 ? (k - k.transpose()).cwiseAbs().maxCoeff() / scale : 0;
 }
 
-/// df/dx_k of a function of a column x, by the five-point rule: columns of the Jacobian.
+/// Jacobian of f(x) by the five-point rule with the interval `step`; column k is df/dx_k.
 template <int rows, int columns, class F>
 Mat<Real, rows, columns> differentiate(const Vec<Real, columns>& x, Real step, F&& f) {
   Mat<Real, rows, columns> jacobian;
@@ -51,7 +50,7 @@ Mat<Real, rows, columns> differentiate(const Vec<Real, columns>& x, Real step, F
   return jacobian;
 }
 
-/// The column x as independent variables: direction k belongs to component k.
+/// The vector x as independent variables: direction k belongs to component k.
 template <int n>
 Vec<Dual<n>, n> seeded(const Vec<Real, n>& x) {
   Vec<Dual<n>, n> y;
@@ -59,7 +58,7 @@ Vec<Dual<n>, n> seeded(const Vec<Real, n>& x) {
   return y;
 }
 
-/// The column x as constants.
+/// The vector x as constants.
 template <int n, int size>
 Vec<Dual<n>, size> constant(const Vec<Real, size>& x) {
   Vec<Dual<n>, size> y;
@@ -67,7 +66,7 @@ Vec<Dual<n>, size> constant(const Vec<Real, size>& x) {
   return y;
 }
 
-/// The derivatives that a column of dual numbers carries: one row a component.
+/// Jacobian of a vector of dual numbers: one row per component.
 template <int n, int rows>
 Mat<Real, rows, n> slopes(const Vec<Dual<n>, rows>& y) {
   Mat<Real, rows, n> jacobian;
@@ -75,46 +74,45 @@ Mat<Real, rows, n> slopes(const Vec<Dual<n>, rows>& y) {
   return jacobian;
 }
 
-/// What a part with a stiff relation answers at a place and a value of the relation's variable.
+/// Forces, tangent and condensed unknown of a kernel at a position and a value of the unknown.
 template <int n>
 struct RelationSample {
   Vec<Real, n> force;
   Mat<Real, n> tangent;
-  StiffRelation<Real, n> relation;
+  CondensedUnknown<Real, n> relation;
 };
 
-/// What the linearisation of a stiff relation is worth where it is open (theory.md, eq. 6.7): relative errors against
-/// central differences.
+/// Errors of the linearisation of an open condensed unknown (theory.md, eq. 6.11), relative to central differences.
 struct RelationReport {
-  Real slope = 0;    ///< of what the displacements ask for
-  Real excess = 0;   ///< of the forces that closing the defect adds
-  Real tangent = 0;  ///< of the forces' derivative as the variable follows
+  Real gradient = 0;  ///< error of the gradient of the constraint residual
+  Real force = 0;     ///< error of the constraint force
+  Real tangent = 0;   ///< error of the tangent with the unknown condensed
 };
 
-/// The relation of at(x, value) -> RelationSample.
+/// Checks the condensed unknown of at(x, value) -> RelationSample.
 template <int n, class At>
 RelationReport relation_report(const Vec<Real, n>& x, Real value, Real step, Real value_step, At&& at) {
   const RelationSample<n> now = at(x, value);
   const Mat<Real, 1, n> slope =
-      differentiate<1, n>(x, step, [&](const Vec<Real, n>& y) { return Vec<Real, 1>(at(y, value).relation.defect); });
+      differentiate<1, n>(x, step, [&](const Vec<Real, n>& y) { return Vec<Real, 1>(at(y, value).relation.residual); });
   const Vec<Real, n> by_value =
       differentiate<n, 1>(Vec<Real, 1>(value), value_step, [&](const Vec<Real, 1>& v) { return at(x, v[0]).force; });
   const Mat<Real, n> by_place = differentiate<n, n>(x, step, [&](const Vec<Real, n>& y) { return at(y, value).force; });
-  return {relative_error(now.relation.slope.transpose(), slope),
-          relative_error(now.relation.excess, Vec<Real, n>(by_value * now.relation.defect)),
+  return {relative_error(now.relation.gradient.transpose(), slope),
+          relative_error(now.relation.force, Vec<Real, n>(by_value * now.relation.residual)),
           relative_error(now.tangent, Mat<Real, n>(by_place + by_value * slope))};
 }
 
-/// Rotation by `angle` [rad]: in the plane, or in space about (1, 2, 2) / 3.
-template <class Shape>
-Tensor<Real, Shape> rotation(Real angle) {
+/// Rotation by `angle` [rad]: in the plane, or in three dimensions about (1, 2, 2) / 3.
+template <class TensorPattern>
+Tensor<Real, TensorPattern> rotation(Real angle) {
   std::array<Real, 3> axis{0, 0, 1};
-  if constexpr (Shape::dim == 3) axis = {Real(1) / 3, Real(2) / 3, Real(2) / 3};
-  auto Q = Tensor<Real, Shape>::identity();
+  if constexpr (TensorPattern::dim == 3) axis = {Real(1) / 3, Real(2) / 3, Real(2) / 3};
+  auto Q = Tensor<Real, TensorPattern>::identity();
   Q.v *= std::cos(angle);
-  for (const auto& [i, j] : Shape::pairs) {
+  for (const auto& [i, j] : TensorPattern::pairs) {
     Q(i, j) += (1 - std::cos(angle)) * axis[std::size_t(i)] * axis[std::size_t(j)];
-    const int k = 3 - i - j;  // the third of two different ones
+    const int k = 3 - i - j;  // the third index if i != j
     if (i != j) Q(i, j) -= std::sin(angle) * axis[std::size_t(k)] * ((i + 1) % 3 == j ? 1 : -1);
   }
   return Q;

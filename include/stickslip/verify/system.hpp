@@ -6,7 +6,7 @@
 
 namespace stickslip::verify {
 
-/// A sparse matrix with both triangles, as a dense one.
+/// Dense copy of a sparse matrix, with both triangles.
 inline Eigen::MatrixXd dense(const SparseView& m) {
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(m.size, m.size);
   for (Index j = 0; j < m.size; ++j)
@@ -17,8 +17,8 @@ inline Eigen::MatrixXd dense(const SparseView& m) {
   return full;
 }
 
-/// The tangent of a whole system at the displacements u against central differences of its residual. The memory of the
-/// system stays what it was; its last evaluation is the one at u. Duals are not sent through systems: `by_duals` is 0.
+/// The tangent of a whole system at the displacements u against central differences of its residual. The history of the
+/// system is unchanged; its last evaluation is that at u. Systems do not take dual numbers: `by_duals` is 0.
 template <class System>
 TangentReport system_tangent(System& system, const Field& u, Real time, Real dt, Real step = 1e-5) {
   const Index n = system.dofs().unknowns();
@@ -28,7 +28,7 @@ TangentReport system_tangent(System& system, const Field& u, Real time, Real dt,
     moved = u;
     system.dofs().scatter_add(h, unit, moved);
     (void)system.evaluate(moved, time, dt);
-    return Field(system.residual());
+    return Field(system.forces().residual);
   };
   for (Index k = 0; k < n; ++k) {
     unit.setZero();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-/// Checks of tangents and of objectivity for policies of one's own. They return relative errors and need no test
+/// Checks of tangents and of objectivity for user-defined policies. They return relative errors and need no test
 /// framework: verify::material_tangent, element_tangent, contact_tangent, tool_derivatives, system_tangent.
 
 #include <stickslip/verify/contact.hpp>

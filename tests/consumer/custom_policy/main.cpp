@@ -28,7 +28,7 @@ struct Saturating {
   static constexpr bool active = true, depends_on_pressure = true, depends_on_slip = false, depends_on_area = true;
   Real mu = 0, k = 0;  // [-], [stress]
   template <class S>
-  FrictionBound<S> bound(const FrictionPoint<S>& at) const {
+  FrictionBound<S> bound(const InterfaceState<S>& at) const {
     const S lost = expm1(at.pressure * (-mu / (k * at.area)));
     return {lost * (-k * at.area), (lost + S(1)) * mu, S(0)};
   }
@@ -107,7 +107,7 @@ void check_derivatives(const Saturating& friction, const Ludwik& hardening) {
   using Current = WithPressure<Saturating, CurrentPressure>;
   const auto disc = rigid::disc({0, -5}, 5);
   const Penalty penalty{.normal = 1e4, .tangential = 1e4};
-  const verify::LoneNode<Penalty, Saturating, Current, rigid::Profile> node{
+  const verify::SingleNode<Penalty, Saturating, Current, rigid::Profile> node{
       .enforcement = penalty, .law = friction, .friction = {}, .tool = disc, .area = 20};
   const auto slides = verify::contact_tangent(node, {{0, 0.01}, {0, -0.2}, {0.5, -0.3}});
   check(std::max(slides.by_duals, slides.by_differences) < 1e-8, "error of the tangent of a sliding node",
@@ -151,7 +151,7 @@ Run extrude(const char* name, decltype(Model::Material::hardening) hardening, ty
 
   Run run;
   auto march = billet.march({.end = 1, .steps = static_cast<Index>(travel), .tolerance = 1e-8});
-  verify::EnergyLedger ledger(billet);
+  verify::EnergyBalance ledger(billet);
   Real time = 0, force = 0;
   for (const StepReport& step : march) {
     ledger.update(step);

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/history.hpp>
+#include <stickslip/dofs/condensed_unknowns.hpp>
+#include <stickslip/dofs/evaluation.hpp>
+#include <stickslip/dofs/sparse_matrix.hpp>
+#include <stickslip/mesh/mesh.hpp>
+#include <stickslip/mesh/sound.hpp>
+#include <stickslip/policy/model.hpp>
+#include <stickslip/tensor/products.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace stickslip {
+
+/// The term of a deformable body: its stencils are the cells' nodes, its kernel is the element, its history the
+/// material's memory at the quadrature points.
+template <class Kinematics_, class Element_, class Material_, Symmetry storage_>
+class BodyOf {
+ public:
+  using Kinematics = Kinematics_;
+  using Element = Element_;
+  using Material = Material_;
+  using TensorPattern = typename Kinematics::TensorPattern;
+  using MeshType = Mesh<Kinematics::dim, Element::nodes>;
+  using State = typename Material::template State<Real, TensorPattern>;
+  static constexpr int dim = Kinematics::dim;
+  static constexpr int dofs = Element::nodes * dim;
+  static constexpr Symmetry storage = storage_;
+  using Matrix = SparseMatrix<storage>;
+
+  BodyOf(MeshType mesh, const Kinematics& kinematics, const Material& material)
+      : mesh_(std::move(mesh)), extent_(mesh_.extent()), kinematics_(kinematics), material_(material) {
+    if (mesh_.cells.empty()) throw std::invalid_argument("body: the mesh has no cells");
+    require_sound(mesh_);
+    geometry_.reserve(mesh_.cells.size());
+    for (Index e = 0; e < mesh_.cell_count(); ++e) geometry_.push_back(cell_geometry(e));
+    memory_ = Memory(mesh_.cells.size());
+    dilatations_ = Dilatations(mesh_.cells.size());
+  }
+
+  const MeshType& mesh() const { return mesh_; }
+  const Kinematics& kinematics() const { return kinematics_; }
+  /// Largest reference coordinate [length].
+  Real extent() const { return extent_; }
+  const Material& material() const { return material_; }
+
+  /// Nodal components of a cell, in the order of its element vectors.
+  std::array<Index, static_cast<std::size_t>(dofs)> components(Index cell) const {
+    std::array<Index, static_cast<std::size_t>(dofs)> c;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(Element::nodes); ++a)
+      for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i)
+        c[a * dim + i] = mesh_.cells[static_cast<std::size_t>(cell)][a] * dim + static_cast<Index>(i);
+    return c;
+  }
+
+  /// Couples the components of every cell.
+  void couple(SparsityPattern& pattern) const {
+    for (Index e = 0; e < mesh_.cell_count(); ++e) pattern.couple(components(e));
+  }
+  /// Makes the scatter maps into a matrix whose pattern stands.
+  void connect(const IndexMap& equations, const Matrix& matrix) {
+    slots_.clear();
+    slots_.reserve(mesh_.cells.size());
+    for (Index e = 0; e < mesh_.cell_count(); ++e) slots_.push_back(matrix.map(equations, components(e)));
+  }
+
+  /// Begins an iteration: the condensed unknowns' values of the converged state become unknowns of their own.
+  void begin_iteration() { dilatations_.begin(); }
+  /// Predicts the condensed unknowns after the change du of the displacements, with a fraction of their constraint
+  /// residuals closed.
+  void predict(const Field& du, Real fraction) {
+    if constexpr (condensed)
+      for (Index e = 0; e < mesh_.cell_count(); ++e)
+        dilatations_.predict(static_cast<std::size_t>(e), gather(du, e), fraction);
+  }
+  void set_step(Real length) { dilatations_.set_step(length); }
+  Real constraint_merit() const { return dilatations_.constraint_merit(); }
+
+  /// Adds internal forces and their tangent.
+  template <class Evaluation>
+  Failure evaluate(const Evaluation& ev, Field& forces) {
+    for (Index e = 0; e < mesh_.cell_count(); ++e) {
+      const auto k = static_cast<std::size_t>(e);
+      const FailureCause cause = evaluate_cell(k, gather(ev.u, e), ev.dt, ev.constraint_force != nullptr, ev.want);
+      if (cause != FailureCause::none) return {cause, {Location::Kind::element, e}};
+      if (ev.driven) {
+        const Vec<Real, dofs> increment = gather(*ev.driven, e);
+        if (contraction(increment, increment) != 0) add(result_.residual, product(result_.tangent, increment));
+      }
+      if (!std::isfinite(result_.residual.sum()) ||
+          (ev.want != Want::residual && !std::isfinite(result_.tangent.sum())))
+        return {FailureCause::not_finite, {Location::Kind::element, e}};
+      scatter(result_.residual, e, forces);
+      if constexpr (condensed)
+        if (ev.constraint_force) scatter(dilatations_[k].force, e, *ev.constraint_force);
+      if (ev.want != Want::residual) ev.matrix.add(slots_[k], result_.tangent);
+      memory_.set_trial(k, result_.states);
+    }
+    return {};
+  }
+
+  /// Makes the memory of the last evaluation the converged one.
+  void commit() {
+    memory_.commit();
+    dilatations_.commit();
+  }
+
+  /// Calls visit(cell, point, F, state, weight) for the converged memory: F as the material sees it, weight the
+  /// reference volume.
+  template <class Visit>
+  void visit_points(const Field& u, Visit&& visit) const {
+    for (Index e = 0; e < mesh_.cell_count(); ++e) {
+      const auto& geometry = geometry_[static_cast<std::size_t>(e)];
+      const auto F = Element::deformation(geometry, gather(u, e));
+      const auto& states = memory_.converged(static_cast<std::size_t>(e));
+      for (std::size_t p = 0; p < F.size(); ++p) visit(e, static_cast<int>(p), F[p], states[p], geometry[p].weight);
+    }
+  }
+
+  /// The converged memory.
+  void serialize(Archive& archive) {
+    memory_.serialize(archive, "body, material memory");
+    dilatations_.serialize(archive, "body, dilatations");
+  }
+
+  /// Geometry of the quadrature points of a cell.
+  const auto& geometry(Index cell) const { return geometry_[static_cast<std::size_t>(cell)]; }
+  /// Where a cell's tangent is stored in the matrix.
+  const auto& slots(Index cell) const { return slots_[static_cast<std::size_t>(cell)]; }
+
+  /// Bytes of material memory a quadrature point keeps for one state (there are two: converged and trial).
+  static constexpr std::size_t bytes_per_point = std::is_empty_v<State> ? 0 : sizeof(State);
+
+ private:
+  static constexpr bool condensed = has_condensed_unknown<Element>;
+  using Dilatations = std::conditional_t<condensed, CondensedUnknowns<dofs>, NoCondensedUnknowns>;
+  using Memory = History<std::array<State, Element::points>, !std::is_empty_v<State>>;
+  using Geometry = typename Element::template Geometry<Kinematics>;
+
+  FailureCause evaluate_cell(std::size_t k, const Vec<Real, dofs>& local, Real dt, [[maybe_unused]] bool iterating,
+                             Want want) {
+    const auto& states = memory_.converged(k);
+    if constexpr (condensed)
+      return evaluate_element<Element>(geometry_[k], material_, local, states, dt, result_, want,
+                                       iterating ? &dilatations_[k] : nullptr);
+    else
+      return evaluate_element<Element>(geometry_[k], material_, local, states, dt, result_, want);
+  }
+
+  Geometry cell_geometry(Index e) const {
+    const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
+    Mat<Real, Element::nodes, dim> X;
+    for (int a = 0; a < Element::nodes; ++a) {
+      const Index n = cell[static_cast<std::size_t>(a)];
+      for (int i = 0; i < dim; ++i) X(a, i) = mesh_.nodes[static_cast<std::size_t>(n)][i];
+    }
+    Geometry geometry;
+    const auto rule = Element::Cell::quadrature();
+    for (std::size_t p = 0; p < rule.size(); ++p) {
+      geometry[p] = point_geometry<Kinematics, typename Element::Cell>(kinematics_, X, rule[p].xi, rule[p].weight);
+      if (!(geometry[p].weight > 0) || !std::isfinite(geometry[p].weight))
+        throw std::invalid_argument(
+            "body: cell " + std::to_string(e) + " has no positive volume; its nodes must run counter-clockwise, " +
+            (dim == 2 ? "and in axisymmetry at positive radius" : "seen from above, the lower face before the upper"));
+    }
+    return geometry;
+  }
+
+  Vec<Real, dofs> gather(const Field& field, Index e) const {
+    Vec<Real, dofs> local;
+    const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
+    for (int a = 0; a < Element::nodes; ++a)
+      for (int i = 0; i < dim; ++i) local[a * dim + i] = field[cell[static_cast<std::size_t>(a)] * dim + i];
+    return local;
+  }
+  void scatter(const Vec<Real, dofs>& local, Index e, Field& field) const {
+    const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
+    for (int a = 0; a < Element::nodes; ++a)
+      for (int i = 0; i < dim; ++i) field[cell[static_cast<std::size_t>(a)] * dim + i] += local[a * dim + i];
+  }
+
+  MeshType mesh_;
+  Real extent_;
+  [[no_unique_address]] Kinematics kinematics_;
+  Material material_;
+  std::vector<Geometry> geometry_;
+  [[no_unique_address]] Memory memory_;
+  [[no_unique_address]] Dilatations dilatations_;
+  std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dofs))>> slots_;
+  ElementResult<Real, dofs, Element::points, State> result_;
+};
+
+/// The body of a model; models that differ in contact, inertia or solver share it.
+template <class Model>
+using Body =
+    BodyOf<typename Model::Kinematics, typename Model::Element, typename Model::Material, matrix_storage<Model>>;
+
+}  // namespace stickslip

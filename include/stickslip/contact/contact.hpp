@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/outcome.hpp>
+#include <stickslip/contact/contact_record.hpp>
+#include <stickslip/geometry/pose.hpp>
+#include <stickslip/geometry/tool.hpp>
+#include <stickslip/policy/model.hpp>
+
+#include <list>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+namespace stickslip {
+
+/// The kind of tool of a model: `Model::Tool`, or what there is of its dimension.
+template <class Model>
+struct ToolKind {
+  using type = typename detail::ToolNameOf<Model>::type;
+};
+template <class Model>
+  requires std::is_void_v<typename detail::ToolNameOf<Model>::type>
+struct ToolKind<Model> {
+  using type = rigid::Tool<Model::Kinematics::dim>;
+};
+template <class Model>
+using ToolOf = typename ToolKind<Model>::type;
+
+/// See Contact.
+template <class Model, class Friction>
+struct ContactOf {
+  static constexpr int dim = Model::Kinematics::dim;
+
+  std::string side;             ///< named side of the mesh
+  ToolOf<Model> tool;           ///< in its own frame
+  rigid::Motion<dim> motion{};  ///< the frame's pose over time
+  [[no_unique_address]] StoredIf<Model::Enforcement::active && Friction::active, typename Friction::Law, ContactOf>
+      friction{};                             ///< parameters of the law
+  typename Model::Enforcement enforcement{};  ///< parameters of the enforcement
+  Real start_depth = 0;  ///< that a node may lie inside the tool at the start [length]; at least its spacing is allowed
+  std::string name = "";  ///< for results; the side's name if empty. Not {}: GCC 12 breaks down where it is left out
+};
+
+/// A side of the body against a rigid tool: what the user says of it. `Friction` is the model's, or one of its
+/// PerContact list.
+template <class Model, class Friction = typename Model::Friction>
+using Contact = ContactOf<MechanicsOf<Model>, Friction>;
+
+namespace detail {
+template <class Model, class Friction, template <class, class> class List>
+struct ContactLists {
+  using type = List<Model, Friction>;
+};
+template <class Model, class... Frictions, template <class, class> class List>
+struct ContactLists<Model, PerContact<Frictions...>, List> {
+  using type = std::tuple<List<Model, Frictions>...>;
+};
+template <class Model, class Friction>
+using ContactList = std::vector<Contact<Model, Friction>>;
+}  // namespace detail
+
+/// The contacts of a model as the user gives them: a list, or one list a kind of friction.
+template <class Model>
+using Contacts = typename detail::ContactLists<Model, typename Model::Friction, detail::ContactList>::type;
+
+/// Calls visit on every entry of Contacts, or of what they become; of a model without contact there is none.
+template <class Tag, class Visit>
+void for_each_contact(const Empty<Tag>&, Visit&&) {}
+template <class Entry, class Visit>
+void for_each_contact(std::vector<Entry>& list, Visit&& visit) {
+  for (Entry& one : list) visit(one);
+}
+template <class Entry, class Visit>
+void for_each_contact(std::list<Entry>& list, Visit&& visit) {
+  for (Entry& one : list) visit(one);
+}
+template <class Entry, class Visit>
+void for_each_contact(const std::list<Entry>& list, Visit&& visit) {
+  for (const Entry& one : list) visit(one);
+}
+template <class... Lists, class Visit>
+void for_each_contact(std::tuple<Lists...>& lists, Visit&& visit) {
+  std::apply([&](auto&... list) { (for_each_contact(list, visit), ...); }, lists);
+}
+template <class... Lists, class Visit>
+void for_each_contact(const std::tuple<Lists...>& lists, Visit&& visit) {
+  std::apply([&](const auto&... list) { (for_each_contact(list, visit), ...); }, lists);
+}
+
+/// Calls visit on the pairs with friction.
+template <class Pairs, class Visit>
+void for_each_friction(Pairs& pairs, Visit&& visit) {
+  for_each_contact(pairs, [&](auto& pair) {
+    if constexpr (std::remove_cvref_t<decltype(pair)>::with_friction) visit(pair);
+  });
+}
+/// Calls visit on the pairs whose slip bounds lag.
+template <class Pairs, class Visit>
+void for_each_lagging(Pairs& pairs, Visit&& visit) {
+  for_each_contact(pairs, [&](auto& pair) {
+    if constexpr (std::remove_cvref_t<decltype(pair)>::lags) visit(pair);
+  });
+}
+/// Calls visit on the pairs that take several outer iterations.
+template <class Pairs, class Visit>
+void for_each_outer(Pairs& pairs, Visit&& visit) {
+  for_each_contact(pairs, [&](auto& pair) {
+    if constexpr (std::remove_cvref_t<decltype(pair)>::outer_iterations) visit(pair);
+  });
+}
+
+/// The first failure that visit(pair) gives for a pair with friction.
+template <class Pairs, class Visit>
+Failure first_failure(Pairs& pairs, Visit&& visit) {
+  Failure failure;
+  for_each_friction(pairs, [&](auto& pair) {
+    if (!failure) failure = visit(pair);
+  });
+  return failure;
+}
+
+/// What all pairs did in the last evaluation.
+template <class Pairs>
+ContactSummary contact_summary(const Pairs& pairs) {
+  ContactSummary sum;
+  for_each_contact(pairs, [&](const auto& pair) { sum.merge(pair.trial_summary()); });
+  return sum;
+}
+
+}  // namespace stickslip

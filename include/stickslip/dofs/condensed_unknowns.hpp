@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/archive.hpp>
+#include <stickslip/policy/condensed_unknown.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace stickslip {
+
+/// The condensed unknowns of one kind in an iteration.
+template <int n>
+class CondensedUnknowns {
+ public:
+  /// Weight of the constraint forces in the merit of an iterate. They must count, for Newton's direction to be one of
+  /// descent, but not at the constraints' stiffness.
+  static constexpr Real merit_weight = 0.05;
+
+  explicit CondensedUnknowns(std::size_t count = 0)
+      : now_(count), converged_(count, 0.0), start_(count, 0.0), step_(count, 0.0) {}
+
+  CondensedUnknown<Real, n>& operator[](std::size_t k) { return now_[k]; }
+  const CondensedUnknown<Real, n>& operator[](std::size_t k) const { return now_[k]; }
+
+  /// Begins an iteration at the values of the converged state.
+  void begin() {
+    for (std::size_t k = 0; k < now_.size(); ++k) now_[k].value = converged_[k];
+  }
+  /// Makes the present values the converged ones.
+  void commit() {
+    for (std::size_t k = 0; k < now_.size(); ++k) converged_[k] = now_[k].value;
+  }
+  /// Predicts the value after the change du of its displacements, with a fraction of its constraint residual closed.
+  void predict(std::size_t k, const Vec<Real, n>& du, Real fraction) {
+    start_[k] = now_[k].value;
+    step_[k] = fraction * now_[k].residual + now_[k].gradient.dot(du);
+  }
+  /// The value at the full length of the last `predict`.
+  Real predicted(std::size_t k) const { return start_[k] + step_[k]; }
+  /// Takes a part of the change of the last `predict`.
+  void set_step(Real length) {
+    for (std::size_t k = 0; k < now_.size(); ++k) now_[k].value = start_[k] + length * step_[k];
+  }
+  /// Part of the constraint forces in the square of the merit [force^2].
+  Real constraint_merit() const {
+    Real sum = 0;
+    for (const auto& r : now_) sum += r.force.squaredNorm();
+    return merit_weight * merit_weight * sum;
+  }
+
+  /// The converged values.
+  void serialize(Archive& archive, const std::string& name) { archive(name, converged_); }
+
+ private:
+  std::vector<CondensedUnknown<Real, n>> now_;
+  std::vector<Real> converged_, start_, step_;
+};
+
+/// Of a term that has none.
+struct NoCondensedUnknowns {
+  explicit NoCondensedUnknowns(std::size_t = 0) {}
+  void begin() {}
+  void commit() {}
+  void set_step(Real) {}
+  Real constraint_merit() const { return 0; }
+  void serialize(Archive&, const std::string&) {}
+};
+
+}  // namespace stickslip

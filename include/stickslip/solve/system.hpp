@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/body/body.hpp>
+#include <stickslip/body/inertia_forces.hpp>
+#include <stickslip/contact/contact_pair.hpp>
+#include <stickslip/dofs/prescribed.hpp>
+#include <stickslip/solve/timings.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+namespace stickslip {
+
+/// Nodal forces of an evaluation, by component [force].
+struct NodalForces {
+  Field internal, contact, external;
+  Field balance;   ///< their sum, inertia included: what does not balance
+  Field residual;  ///< the balance of the unknowns
+  Real norm = 0;   ///< of the residual; within an iteration see System::Iterate::evaluate
+  /// Of the last commit: force of a support on the body, inertia included; zero to the tolerance at free components.
+  /// With generalised-alpha it is that of the balance, between the start and the end of the step.
+  Field reaction;
+
+  /// What the residual is measured against: the largest of the norms of the internal, contact and external forces,
+  /// those at supports included (theory.md, eq. 6.2).
+  Real scale() const { return std::max({internal.norm(), contact.norm(), external.norm()}); }
+};
+
+/// The discrete balance of a scene: residual and tangent as a function of the nodal displacements (theory.md, eq. 1.1),
+/// the sum of its terms: body, contact pairs and inertia. What a model does not have is an empty term.
+template <class Model>
+class System {
+  static_assert(CheckModel<Model>::ok);
+
+ public:
+  using BodyType = Body<Model>;
+  using Matrix = typename BodyType::Matrix;
+  using Pairs = StoredIf<has_contact<Model>, ContactPairs<Model>, Matrix>;
+  using Inertia = InertiaForces<Model>;
+  static constexpr int dim = Model::Kinematics::dim;
+  static constexpr bool weighs_body = has_inertia<Model> && (has_contact<Model> || has_damping<Model>);
+  class Iterate;
+
+  /// `revision` tells systems of one scene apart, for those who keep what they made of its pattern.
+  System(BodyType& body, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
+         const std::vector<SideValue>& loads, Index revision = 1)
+      : body_(body), pairs_(pairs), inertia_(inertia), prescribed_(dim, body.extent()), pattern_revision_(revision) {
+    for (const SideValue& d : driven) prescribed_.drive(d, body.mesh().side(d.side).nodes);
+    for (const SideValue& l : loads)
+      prescribed_.load(l, body.mesh().side(l.side).nodes, nodal_areas(body.mesh(), body.kinematics(), l.side));
+    const Index components = body.mesh().node_count() * dim;
+    dofs_ = prescribed_.unknowns_of(components);
+    SparsityPattern pattern(dofs_, BodyType::storage);
+    body_.couple(pattern);
+    matrix_ = Matrix(pattern);
+    body_.connect(dofs_, matrix_);
+    std::size_t nodes = 0;
+    for_each_contact(pairs_, [&](auto& pair) {
+      pair.connect(dofs_, matrix_);
+      nodes += pair.nodes().size();
+    });
+    couplings_.reserve(nodes);
+    inertia_.connect(matrix_);
+    for (Field* f : {&forces_.internal, &forces_.contact, &forces_.external, &forces_.balance, &forces_.reaction,
+                     &constraint_force_})
+      f->setZero(components);
+    forces_.residual.setZero(dofs_.unknowns());
+    open_ = forces_.residual;
+  }
+
+  const IndexMap& dofs() const { return dofs_; }
+  /// The tangent of the last evaluation that was asked for one.
+  SparseView matrix() const {
+    SparseView view = matrix_.view();
+    view.corrections = couplings_.view();
+    return view;
+  }
+  /// Whether that is the tangent of the last evaluation.
+  bool has_tangent() const { return has_tangent_; }
+  /// Another one when the pattern has changed and the solver must analyse again.
+  Index pattern_revision() const { return pattern_revision_; }
+  /// Supports and loads.
+  const Prescribed& prescribed() const { return prescribed_; }
+  BodyType& body() { return body_; }
+  Pairs& pairs() { return pairs_; }
+  const Pairs& pairs() const { return pairs_; }
+
+  /// Takes the displacements u at `time` for a start: positions on the tools, penalties in parts of the body's
+  /// stiffness, and accelerations that balance the forces. Throws std::invalid_argument where contacts cannot start.
+  Failure start(const Field& u, Real time) {
+    for_each_contact(pairs_, [&](auto& pair) { pair.start(u, time); });
+    if (const Failure f = compute_penalties(u, false)) return f;
+    if constexpr (has_inertia<Model>) {
+      if (const Failure f = assemble({u, time, 0, Want::tangent, nullptr, false, nullptr, matrix_, couplings_}))
+        return f;
+      inertia_.start(dofs_, forces_.internal, forces_.external);
+    }
+    return {};
+  }
+  /// Evaluates the residual, and the tangent where it is wanted, at the displacements u, `time` and the increment dt
+  /// that leads there. Within an iteration, use the Iterate instead.
+  Failure evaluate(const Field& u, Real time, Real dt, Want want = Want::tangent) {
+    plain_ = true;
+    return evaluate({u, time, dt, want, nullptr, false, nullptr, matrix_, couplings_});
+  }
+  /// Those of the last evaluation.
+  const NodalForces& forces() const { return forces_; }
+  /// Bound of the residual that round-off alone leaves: the largest stiffness of the body and of sticking times the
+  /// extent of the coordinates (theory.md, eq. 6.3).
+  Real roundoff(const Field& u) const {
+    const Real moved = u.lpNorm<Eigen::Infinity>(), extent = body_.extent();
+    Real force = stiffness_ * (exact_strains && !has_contact<Model> ? moved : moved + extent);
+    if (has_contact<Model>) force += stick_stiffness_ * (moved + extent);
+    return 16 * std::numeric_limits<Real>::epsilon() * force * std::sqrt(Real(dofs_.unknowns()));
+  }
+
+  /// Largest entry of the body's tangent at the displacements u [force / length]; 0 where it has none. Spoils the last
+  /// evaluation.
+  Real body_stiffness(const Field& u) { return evaluate_body(u) ? 0 : matrix_.largest(); }
+
+  /// Makes the state of the last evaluation, at the displacements u, the converged one.
+  void commit([[maybe_unused]] const Field& u, [[maybe_unused]] Real time, [[maybe_unused]] Real dt) {
+    if constexpr (has_inertia<Model>) {
+      inertia_.commit(dofs_, u, forces_.internal, forces_.contact);
+      if constexpr (has_contact<Model>)
+        for_each_contact(pairs_, [&](const auto& pair) {
+          pair.persist_velocities(dofs_, inertia_.start_of_step(), u, time - dt, time, inertia_.velocity_before(),
+                                  inertia_.contact_mass(), inertia_.velocity());
+        });
+    }
+    commit();
+  }
+  /// The same of what has no velocity: the memory of points and contact nodes.
+  void commit() {
+    assert(evaluated_ && "System::commit needs an evaluation since the last commit");
+    evaluated_ = false;
+    forces_.reaction = forces_.balance;
+    if (const Real share = inertia_.contact_share() - 1; share != 0)  // a support takes the force of contact itself
+      for (Index c = 0; c < dofs_.components(); ++c)
+        if (dofs_.equation(c) == IndexMap::constrained) forces_.reaction[c] -= share * forces_.contact[c];
+    body_.commit();
+    for_each_contact(pairs_, [](auto& pair) { pair.commit(); });
+  }
+
+  Timings timings;
+
+ private:
+  using Couplings = std::conditional_t<stores_couplings<Model>, NodeCouplings<dim>, NoNodeCouplings>;
+  using EvaluationType = Evaluation<Matrix, Couplings>;
+
+  // Tells contacts whose penalties are in parts of the body's stiffness what that is at the displacements u; if `all`
+  // is false, those that know one already as well.
+  Failure compute_penalties(const Field& u, bool missing_only) {
+    bool needed = false;
+    const auto needs = [&](const auto& pair) {
+      return missing_only ? pair.needs_stiffness() : pair.in_parts_of_stiffness();
+    };
+    for_each_contact(pairs_, [&](const auto& pair) { needed = needed || needs(pair); });
+    if (!needed) return {};
+    if (const Failure f = evaluate_body(u)) return f;
+    for_each_contact(pairs_, [&](auto& pair) {
+      if (needs(pair)) pair.compute_penalties(dofs_, matrix_);
+    });
+    return {};
+  }
+
+  Failure evaluate_body(const Field& u) {
+    has_tangent_ = evaluated_ = false;
+    forces_.internal.setZero();
+    matrix_.set_zero();
+    return body_.evaluate(EvaluationType{u, 0, 0, Want::tangent, nullptr, false, nullptr, matrix_, couplings_},
+                          forces_.internal);
+  }
+  Failure evaluate(const EvaluationType& ev) {
+    if (const Failure f = compute_penalties(ev.u, true)) return f;
+    has_tangent_ = evaluated_ = false;
+    if (const Failure f = assemble(ev)) return f;
+    if constexpr (has_inertia<Model>) {
+      const Stopwatch watch(timings.assembly);
+      inertia_.apply(ev.u, forces_.internal, forces_.external, forces_.balance,
+                     ev.want == Want::residual ? nullptr : &matrix_);
+      if (!with_mass_) stiffness_ += inertia_.stiffness();
+      with_mass_ = true;
+      couplings_.scale(inertia_.contact_share());
+    }
+    dofs_.gather(forces_.balance, forces_.residual);
+    forces_.norm = forces_.residual.norm();
+    if (!std::isfinite(forces_.norm)) return {FailureCause::not_finite, {}};
+    has_tangent_ = ev.want != Want::residual;
+    evaluated_ = true;
+    return {};
+  }
+
+  // Internal, contact and external forces by component, their balance and its derivative; with inertia, what its
+  // balance is made of (InertiaForces::apply).
+  Failure assemble(const EvaluationType& ev) {
+    const bool with_tangent = ev.want != Want::residual;
+    forces_.internal.setZero();
+    forces_.contact.setZero();
+    if (with_tangent) {
+      matrix_.set_zero();
+      couplings_.clear();
+    }
+    {
+      const Stopwatch watch(timings.assembly);
+      if (const Failure f = body_.evaluate(ev, forces_.internal)) return f;
+      if (with_tangent && !measured_) measure_stiffness();
+      if constexpr (weighs_body)
+        if (ev.dt > 0) {
+          if (with_tangent) matrix_.scale(inertia_.body_share());
+          if (ev.constraint_force) *ev.constraint_force *= inertia_.body_share();
+        }
+    }
+    {
+      const Stopwatch watch(timings.contact);
+      Failure failure;
+      for_each_contact(pairs_, [&](auto& pair) {
+        if (!failure) failure = pair.evaluate(ev, forces_.contact);
+      });
+      if (failure) return failure;
+    }
+    forces_.external.setZero();
+    if (const Failure f = prescribed_.add_loads(ev.time, forces_.external)) return f;
+    if constexpr (has_inertia<Model>)
+      forces_.balance = forces_.contact;
+    else
+      forces_.balance = forces_.internal + forces_.contact - forces_.external;
+    if (ev.constraint_force) forces_.balance += *ev.constraint_force;
+    return {};
+  }
+  // The stiffnesses that round-off meets, once an iteration.
+  void measure_stiffness() {
+    measured_ = true;
+    stiffness_ = matrix_.largest();
+    stick_stiffness_ = 0;
+    for_each_contact(pairs_, [&](const auto& pair) {
+      stick_stiffness_ = std::max(stick_stiffness_, pair.largest_stick_stiffness());
+    });
+  }
+  // Whether the material takes strains with all their digits.
+  static constexpr bool exact_strains =
+      requires(const typename Model::Material& material,
+               const Deformation<Real, typename Model::Kinematics::TensorPattern>& deformation,
+               const typename BodyType::State& state) {
+    material.respond(deformation, state, Real(0));
+  };
+
+  BodyType& body_;
+  Pairs& pairs_;
+  Inertia& inertia_;
+  IndexMap dofs_;
+  Matrix matrix_;
+  [[no_unique_address]] Couplings couplings_;
+  Prescribed prescribed_;
+  NodalForces forces_;
+  Field constraint_force_;                     // that closing the condensed unknowns' constraints adds, by component
+  Field open_;                                 // the residual without it
+  Real stiffness_ = 0, stick_stiffness_ = 0;   // of the body, its inertia included, and of sticking [force / length]
+  bool measured_ = false, with_mass_ = false;  // whether they are those of this iteration, and with inertia
+  bool has_tangent_ = false, evaluated_ = false;
+  bool plain_ = false;  // the condensed unknowns were overwritten by an evaluation outside the iteration
+  Index pattern_revision_;
+};
+
+/// An iterate of Newton's method: the condensed unknowns have values of their own beside the displacements. It begins
+/// at the converged state; unless it is accepted, multipliers and slip bounds go back to that with it.
+template <class Model>
+class System<Model>::Iterate {
+ public:
+  explicit Iterate(System& system) : system_(system) { restart(); }
+  Iterate(const Iterate&) = delete;
+  Iterate& operator=(const Iterate&) = delete;
+  ~Iterate() {
+    if (!accepted_) for_each_contact(system_.pairs_, [](auto& pair) { pair.reset_augmentations(); });
+  }
+  /// Begins again at the converged state's values of the condensed unknowns.
+  void restart() {
+    system_.measured_ = system_.with_mass_ = system_.plain_ = false;
+    system_.body_.begin_iteration();
+    for_each_contact(system_.pairs_, [](auto& pair) { pair.begin_iteration(); });
+  }
+  /// The same, with nodes linearised as sticking that the last try has lost; with all of them where `sticking`.
+  void retry(bool sticking) {
+    restart();
+    for_each_friction(system_.pairs_, [&](auto& pair) { pair.retry(sticking); });
+  }
+  System& system() { return system_; }
+
+  /// Evaluates the system at the displacements u and the condensed unknowns: the residual is the one to first order
+  /// after their constraints are closed (theory.md, eq. 6.11), its norm the largest of those with the constraints
+  /// closed and open and of the forces between the two, at supports as well (theory.md, eq. 6.2). With `driven`, also
+  /// after those further increments of constrained components.
+  Failure evaluate(const Field& u, Real time, Real dt, Want want = Want::tangent, const Field* driven = nullptr) {
+    return evaluate(u, time, dt, want, driven, false);
+  }
+  /// Evaluates the same iterate again, to have its tangent as well.
+  Failure add_tangent(const Field& u, Real time, Real dt) {
+    return evaluate(u, time, dt, Want::tangent, nullptr, true);
+  }
+  /// What a search along a linear solution must lower: the norm of the imbalance, with the constraint forces weighted
+  /// (theory.md, eq. 6.13).
+  Real merit() const { return merit_; }
+  /// Predicts the condensed unknowns after the change du of the displacements, with a fraction of their constraint
+  /// residuals closed.
+  void predict(const Field& du, Real fraction = 1) {
+    system_.body_.predict(du, fraction);
+    for_each_contact(system_.pairs_, [&](auto& pair) { pair.predict(du, fraction); });
+  }
+  /// Takes a part of the change of the last `predict`.
+  void set_step(Real length) {
+    system_.body_.set_step(length);
+    for_each_contact(system_.pairs_, [&](auto& pair) { pair.set_step(length); });
+  }
+  /// Keeps the multipliers and bounds that were reached; the state is to be committed.
+  void accept() { accepted_ = true; }
+
+ private:
+  Failure evaluate(const Field& u, Real time, Real dt, Want want, const Field* driven, bool again) {
+    assert(!system_.plain_ && "System::evaluate within an iteration spoils it: restart the iterate");
+    System& s = system_;
+    s.constraint_force_.setZero();
+    if (const Failure f = s.evaluate({u, time, dt, want, driven, again, &s.constraint_force_, s.matrix_, s.couplings_}))
+      return f;
+    const Real share = s.inertia_.contact_share();
+    s.dofs_.gather(s.constraint_force_, s.open_);
+    s.open_ = s.forces_.residual - share * s.open_;
+    const Real imbalance = s.open_.norm();
+    Real constraints = s.body_.constraint_merit();
+    if constexpr (weighs_body) constraints *= std::pow(s.inertia_.body_share(), 2);
+    for_each_contact(s.pairs_, [&](const auto& pair) { constraints += pair.constraint_merit(); });
+    s.forces_.norm = std::max({s.forces_.norm, imbalance, share * s.constraint_force_.norm()});
+    merit_ = std::hypot(imbalance, share * std::sqrt(constraints));
+    return {};
+  }
+
+  System& system_;
+  Real merit_ = 0;
+  bool accepted_ = false;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "model.hpp"
+
+struct Slab {
+  using Role = role::Kinematics;
+  static constexpr bool hoop = false;
+  struct TensorPattern : Planar {
+#ifndef CONTROL
+    static constexpr int dim = 3;
+#endif
+  };
+  static constexpr int dim = 2;
+  Real volume_factor(const Vec<Real, 2>&) const;
+};
+struct Model : Sound {
+  using Kinematics = Slab;
+  using Enforcement = NoContact;
+  using Friction = Frictionless;
+};
+
+static_assert(CheckModel<Model>::ok);

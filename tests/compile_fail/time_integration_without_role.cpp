@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "model.hpp"
+
+struct Sluggish {
+#ifdef CONTROL
+  using Role = role::TimeIntegration;
+#endif
+  static constexpr bool active = false;
+};
+struct Model : Sound {
+  using TimeIntegration = Sluggish;
+};
+
+static_assert(CheckModel<Model>::ok);
