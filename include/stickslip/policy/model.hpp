@@ -255,7 +255,7 @@ struct CheckModel {
                 "to ThreeDimensional or take an isotropic law.");
   static_assert(rule::TimeIntegration<Model>,
                 "stickslip: the model's TimeIntegration does not meet TimeIntegrationPolicy; see docs/policies.md, "
-                "section TimeIntegration.");
+                "section Time integration.");
   static_assert(rule::Damping<Model>,
                 "stickslip: the model's Damping does not meet DampingPolicy; see docs/policies.md, section Damping.");
   static_assert(rule::DampingNeedsInertia<Model>,
