@@ -52,7 +52,7 @@ int invert(const examples::Options& options) {
   Problem<Model> absorber{{
       .body = tube,
       .material = {.young = 67000, .poisson = 0.33, .hardening = {.yield = 15 * scale, .modulus = 44.7 * scale}},
-      .time_integration = {.density = 2.7e-9, .scheme = chung_hulbert(p.at("spectral-radius"))},
+      .density = 2.7e-9, .time_integration = {.scheme = chung_hulbert(p.at("spectral-radius"))},
       .contacts = {on_die},
   }};
   absorber.drive("top", 1, [](Real t) { return -speed * t; });

@@ -109,7 +109,7 @@ class March : public RunState {
   Index state_;  // revision of the converged state that the next step starts from
   Newton<SolverOf<Model>, has_inexact_tangent<Model>()> newton_;
   Field trial_, driven_, outer_guess_;
-  std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
+  std::unique_ptr<StressRecoveries<Mechanical>> stress_;  // where the mesh's error is asked for
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
   using Gain = std::optional<EnergyGain<Mechanical, Scene<Mechanical>>>;
   [[no_unique_address]] StoredIf<keeps_energy, Gain, March> gain_;  // to see what the time scheme gains
@@ -156,15 +156,18 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
                             .max_iterations = options.max_iterations,
                             .line_search = options.line_search}) {
   if constexpr (has_outer_iterations<Model>() || has_lag<Model>()) outer_guess_ = problem.u_;
-  if (options.mesh_error_interval > 0)
-    stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
+  if (options.mesh_error_interval > 0) stress_ = std::make_unique<StressRecoveries<Mechanical>>(problem.bodies_);
   problem_.prepare();
-  if (const auto apart = mesh::coincident_nodes(problem_.body_.mesh()); apart.nodes > 0)
-    now_.warnings.add("coincident_nodes", "",
-                      std::to_string(apart.nodes) + " nodes of the mesh lie where another one does, nodes " +
-                          std::to_string(apart.first[0]) + " and " + std::to_string(apart.first[1]) +
-                          " (from 0) among them: what was meshed in blocks that were not joined comes apart there",
-                      0);
+  problem_.bodies_.for_each([&](const auto& body) {
+    if (const auto apart = mesh::coincident_nodes(body.mesh()); apart.nodes > 0)
+      now_.warnings.add("coincident_nodes", body.name(),
+                        std::to_string(apart.nodes) + " nodes of the mesh" +
+                            (body.name().empty() ? "" : " of body \"" + body.name() + "\"") +
+                            " lie where another one does, nodes " + std::to_string(apart.first[0]) + " and " +
+                            std::to_string(apart.first[1]) +
+                            " (from 0) among them: what was meshed in blocks that were not joined comes apart there",
+                        0);
+  });
   problem_.require_agreement(options.end);
   if constexpr (has_contact<Model>)
     problem_.visit_contacts([&](const auto& pair) {
@@ -381,7 +384,7 @@ typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field&
   // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
   if constexpr (!has_inertia<Model>) {
     driven_ = u - problem_.u_;
-    if (!problem_.proven_ || driven_.template lpNorm<Eigen::Infinity>() > system.body().extent() ||
+    if (!problem_.proven_ || driven_.template lpNorm<Eigen::Infinity>() > system.bodies().extent() ||
         diagnosis.loose_part(false) >= 0) {
       if (!system.has_tangent()) {
         ++newton_.counts.evaluations;
@@ -488,7 +491,7 @@ void March<Model>::advance() {
         complete_step(step, tried.first_iterations, error, [&] {
           if (!stress_ || now_.report.steps % options_.mesh_error_interval != 0) return now_.step.errors.space;
           const Stopwatch watch(system.timings.estimates);
-          stress_->update(problem_.body_, u);
+          stress_->update(problem_.bodies_, u);
           return stress_->relative();
         });
         return;

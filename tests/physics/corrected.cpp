@@ -117,7 +117,7 @@ TEST_CASE("corrected: with inertia, whose share scales the couplings") {
   const auto run = []<class M>(M) {
     Problem<M> block{{.body = mesh::rectangle({.size = {10, 5}, .cells = {8, 4}}),
                       .material = material<Hencky>(),
-                      .time_integration = {.density = 2.7e-9},
+                      .density = 2.7e-9,
                       .contacts = {{.side = "bottom",
                                     .tool = rigid::line({0, 0}, {1, 0}),
                                     .friction = {.mu = 0.4},

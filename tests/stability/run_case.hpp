@@ -148,7 +148,7 @@ CaseResultOf<dim> run_case(const CaseSetupOf<dim>& setup, const LookOf<dim>& loo
     material.hardening.exponent = setup.exponent;
   }
   if constexpr (has_inertia<M>) {
-    parameters.time_integration.density = setup.density;
+    parameters.density = setup.density;
     parameters.time_integration.scheme = setup.scheme.value_or(chung_hulbert(setup.radius));
   }
   if constexpr (has_contact<M>)

@@ -45,7 +45,7 @@ struct Model {
 template <class M>
 verify::TangentReport check() {
   using Kinematics = typename M::Kinematics;
-  Body<M> body(mesh::rectangle({.origin = {0.2, 0}, .size = {2, 1}, .cells = {2, 2}}), Kinematics{},
+  Bodies<M> body(mesh::rectangle({.origin = {0.2, 0}, .size = {2, 1}, .cells = {2, 2}}), Kinematics{},
                {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 40}});
   ContactPairs<M> pairs;
   const Contact<M> contact{.side = "bottom",
@@ -53,7 +53,7 @@ verify::TangentReport check() {
                            .motion = [](Real t) { return Vec<Real, 2>(0.3 * t, 0.05 * t); },
                            .friction = {.mu = 0.2},
                            .enforcement = {.normal = 2e3, .tangential = 5e2}};
-  pairs.emplace_back(contact, body.mesh(), body.kinematics());
+  pairs.emplace_back(contact, body);
   typename System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {{"top", 1, [](Real t) { return -0.1 * t; }}},
                    {{"right", 0, [](Real t) { return 3 * t; }}});
@@ -93,7 +93,7 @@ TEST_CASE("tangent of a whole system in space") {
     using Element = MeanDilatation<Hex8>;
     using Enforcement = NoContact;
   };
-  Body<M> body(mesh::box({.cells = {2, 1, 2}}), {},
+  Bodies<M> body(mesh::box({.cells = {2, 1, 2}}), {},
                {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 40}});
   System<M>::Pairs pairs{};
   System<M>::Inertia inertia{};
@@ -112,7 +112,7 @@ TEST_CASE("tangent of a whole system in space") {
 // The predictor of a driven step: residual to first order after the increments still to come.
 TEST_CASE("the tangent predictor carries the driven increments") {
   using M = Model<PlaneStrain, QuasiCoulomb>;
-  Body<M> body(mesh::rectangle({.size = {2, 1}, .cells = {2, 2}}), PlaneStrain{},
+  Bodies<M> body(mesh::rectangle({.size = {2, 1}, .cells = {2, 2}}), PlaneStrain{},
                {.young = 1000, .poisson = 0.3, .hardening = {.yield = 50, .modulus = 40}});
   ContactPairs<M> pairs;
   typename System<M>::Inertia inertia{};

@@ -176,7 +176,7 @@ std::unique_ptr<Problem<Model>> scene(Index cells = 6, Real lost_from = 2) {
     j2(p.material.law);
   else
     j2(p.material);
-  if constexpr (has_inertia<Model>) p.time_integration.density = 0.5;
+  if constexpr (has_inertia<Model>) p.density = 0.5;
   if constexpr (requires { Model::Friction::per_contact; }) {
     std::get<0>(p.contacts).push_back(roller<Model, Coulomb>("top", lost_from));
     std::get<1>(p.contacts).push_back(roller<Model, Frictionless>("right", lost_from));

@@ -33,15 +33,23 @@ struct Energies {
   }
 };
 
-/// Whether a model's material and enforcement tell their energies; those of a user may not.
-template <class Model>
-concept TellsEnergies =
-    requires(const typename Model::Material& material, const Tensor<Real, typename Model::Kinematics::TensorPattern>& F,
-             const typename Model::Material::template State<Real, typename Model::Kinematics::TensorPattern>& state) {
+namespace detail {
+template <class Material, class TensorPattern>
+inline constexpr bool tells_energy = requires(const Material& material, const Tensor<Real, TensorPattern>& F,
+                                              const typename Material::template State<Real, TensorPattern>& state) {
   material.energy(F, state);
+};
+template <class TensorPattern, class... Types>
+constexpr bool all_tell_energy(BodyTypes<Types...>) {
+  return (tells_energy<typename Types::Material, TensorPattern> && ...);
 }
-&&(!has_contact<Model> ||
-   requires(const typename Model::Enforcement& enforcement) { enforcement.energy(Real(), Real()); });
+}  // namespace detail
+
+/// Whether a model's materials and enforcement tell their energies; those of a user may not.
+template <class Model>
+concept TellsEnergies = detail::all_tell_energy<typename Model::Kinematics::TensorPattern>(BodyTypesOf<Model>{}) &&
+    (!has_contact<Model> ||
+     requires(const typename Model::Enforcement& enforcement) { enforcement.energy(Real(), Real()); });
 
 /// The books of a run of a scene (theory.md, eq. 7.7): made before its first step, updated after every step. They cost
 /// a pass over the points a step.
@@ -155,12 +163,14 @@ class EnergyGain {
 
   // Energies that are functions of the state.
   void read_state() {
-    const auto& material = scene_.body().material();
     energies_.elastic = energies_.plastic = energies_.penalty = 0;
-    scene_.body().visit_points(scene_.displacement(), [&](Index, int, const auto& F, const auto& state, Real weight) {
-      energies_.elastic += weight * material.energy(F, state);
-      if constexpr (requires { material.plastic_work(state); })
-        energies_.plastic += weight * material.plastic_work(state);
+    scene_.bodies().for_each([&](const auto& body) {
+      const auto& material = body.material();
+      body.visit_points(scene_.displacement(), [&](Index, int, const auto& F, const auto& state, Real weight) {
+        energies_.elastic += weight * material.energy(F, state);
+        if constexpr (requires { material.plastic_work(state); })
+          energies_.plastic += weight * material.plastic_work(state);
+      });
     });
     if constexpr (has_contact<Model>)
       scene_.visit_contacts([&](const auto& pair) { energies_.penalty += pair.stored_energy(); });
@@ -178,7 +188,7 @@ class EnergyGain {
         along.take(pair.motion(), t0, t1);
         for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
           const Index n = pair.nodes()[k];
-          const Vec<Real, dim> x = scene_.body().mesh().nodes[static_cast<std::size_t>(n)] + scene_.displacement(n);
+          const Vec<Real, dim> x = scene_.bodies().positions()[static_cast<std::size_t>(n)] + scene_.displacement(n);
           const Vec<Real, dim> own = at_node<dim>(du, n);
           Vec<Real, dim> force = pair.states()[k].force;
           if constexpr (with_forces) {

@@ -257,7 +257,7 @@ class Newton {
     counts.corrections += corrections_so_far() - corrections;
     if (!solved || !step_.allFinite()) return {FailureCause::singular_matrix, {}};
     // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
-    if (step_.lpNorm<Eigen::Infinity>() > 1e6 * system.body().extent()) return {FailureCause::singular_matrix, {}};
+    if (step_.lpNorm<Eigen::Infinity>() > 1e6 * system.bodies().extent()) return {FailureCause::singular_matrix, {}};
     return {};
   }
 
@@ -296,7 +296,7 @@ class Newton {
         z = step_;
       else if (!substitute(system, krylov.next(), z))
         return {FailureCause::singular_matrix, {}};
-      const Real part = length * system.body().extent() / z.template lpNorm<Eigen::Infinity>();
+      const Real part = length * system.bodies().extent() / z.template lpNorm<Eigen::Infinity>();
       change_.setZero();
       system.dofs().scatter_add(-part, z, change_);  // the way the step goes: there may be a kink
       iterate.predict(change_, 0);
