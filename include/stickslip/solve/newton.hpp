@@ -287,7 +287,8 @@ class Newton {
     change_.setZero();
     iterate.predict(change_, 0);  // what the system notes of an iteration goes back there as well
     iterate.set_step(0);
-    if (const Failure f = evaluate(iterate, u, time, dt, Want::residual)) return f;
+    // With the tangent, which the search has overwritten: solvers iterate on it, or refine their solutions.
+    if (const Failure f = evaluate(iterate, u, time, dt, Want::tangent)) return f;
     probes_.residual = system.forces().residual;
     krylov.begin(probes_.residual);
     while (krylov.count() < most && krylov.residual().norm() > tolerance * probes_.residual.norm()) {
