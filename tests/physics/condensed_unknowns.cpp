@@ -35,7 +35,7 @@ TEST_CASE("a penalty 1000 times as stiff takes no more iterations") {
   }
 }
 
-TEST_CASE("at the end of an iteration pressures and dilatations are those of the displacements") {
+TEST_CASE("at the end of an iteration pressures and dilatations agree with the displacements") {
   using M = Model<EigenLdlt, QuasiCoulomb, FiniteJ2<LinearHardening>>;
   Bodies<M> body(mesh::rectangle({.size = {10, 5}, .cells = {8, 4}}), PlaneStrain{},
                material<FiniteJ2<LinearHardening>>());

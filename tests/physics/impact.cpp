@@ -126,7 +126,7 @@ void hits(const TimeScheme& scheme, Real normal, Index steps_per_transit, bool w
   CHECK((last - first) / 2 < (normal > 1 ? 1.03 : 1.05) + resolution);
 }
 
-TEST_CASE("a bar that hits a wall makes no energy, and its force is that of the wave") {
+TEST_CASE("a bar that hits a wall gains no energy, and its force is that of the wave") {
   for (const TimeScheme& scheme : {newmark(), chung_hulbert(0.9), chung_hulbert(0.5), chung_hulbert(0.0), hht(0.1)}) {
     for (const Real normal : {1.0, 100.0, 1e4}) hits<Smooth>(scheme, normal, 50);
     hits<Smooth>(scheme, 1e4, 100);
@@ -135,7 +135,7 @@ TEST_CASE("a bar that hits a wall makes no energy, and its force is that of the 
   }
 }
 
-TEST_CASE("so does one at rest that a moving wall hits") {
+TEST_CASE("a bar at rest that a moving wall hits gains no energy, and its force is that of the wave") {
   hits<Smooth>(newmark(), 1e4, 100, true);
   hits<Exact>(chung_hulbert(0.5), 10, 100, true);
 }
@@ -149,7 +149,7 @@ TEST_CASE("multipliers leave no gap that the motion of a step opens") {
   REQUIRE(march.outcome());
 }
 
-TEST_CASE("pressed smoothly, displacements are of order 2 and forces of order 1") {
+TEST_CASE("under a smooth pressure displacements converge at second order and forces at first") {
   const auto pressed = [](Index steps) {
     Problem<Smooth> p{{.body = mesh::rectangle({.size = {1, length}, .cells = {1, 20}}),
                        .material = {.young = 1e4, .poisson = 0},
@@ -170,7 +170,7 @@ TEST_CASE("pressed smoothly, displacements are of order 2 and forces of order 1"
   CHECK(std::log2(coarse[1] / fine[1]) > 0.8);
 }
 
-TEST_CASE("a node that is pulled leaves in the same step") {
+TEST_CASE("a node pulled off the tool separates in the same step") {
   Problem<Smooth> block{{.body = mesh::rectangle({.cells = {1, 1}}),
                          .material = {.young = 1e4, .poisson = 0},
                          .density = 1,
@@ -186,7 +186,7 @@ TEST_CASE("a node that is pulled leaves in the same step") {
   REQUIRE(march.outcome());
 }
 
-TEST_CASE("a support takes what the tool does to its nodes, once") {
+TEST_CASE("a reaction contains the contact force at its nodes once") {
   // Driven into a wall with all the block at that velocity: nothing is strained, support and tool hold each other.
   Problem<Smooth> block{
       {.body = mesh::rectangle({.cells = {2, 2}}),
@@ -237,7 +237,7 @@ TEST_CASE("a tool that accelerates pushes with mass times acceleration") {
   for (Index n = 0; n < 4; ++n) CHECK(block->inertia().velocity()[2 * n + 1] == doctest::Approx(4).epsilon(1e-3));
 }
 
-TEST_CASE("a block that sticks to a turning plate is held on its circle") {
+TEST_CASE("a block that sticks to a rotating plate moves on its circle") {
   const auto block = plated(
       {0, 9.5}, rigid::line({0, 10}, {-1, 0}),
       [](Real t) {
@@ -256,7 +256,7 @@ TEST_CASE("a block that sticks to a turning plate is held on its circle") {
   REQUIRE(march.outcome());
 }
 
-TEST_CASE("a force on a turning normal stands halfway, and its impulse is bounded") {
+TEST_CASE("a force on a rotating normal has the direction halfway through the step, and its impulse is bounded") {
   const auto at = [](Real angle) { return V(std::cos(angle), std::sin(angle)); };
   const V force = 3 * at(0.9);  // of any direction against the normal
   CHECK((halfway<2>(at(0.1), at(0.5), force) - 3 * at(0.7)).norm() < 1e-14);
@@ -275,7 +275,7 @@ TEST_CASE("a force on a turning normal stands halfway, and its impulse is bounde
   CHECK(persistent(0, -1, -0.5) == -0.5);
 }
 
-TEST_CASE("damping takes tau omega / 2 of critical, and the books know it") {
+TEST_CASE("stiffness damping has the ratio tau omega / 2, and its work is in the energy balance") {
   Problem<Damped> rod{
       {.body = mesh::rectangle({.size = {1, length}, .cells = {1, 20}}),
        .material = {.young = 1e4, .poisson = 0},
@@ -342,7 +342,7 @@ TEST_CASE("with 3 ms of damping a soft block slides down a slope as a rigid one 
   }
 }
 
-TEST_CASE("without damping friction's flutter grows as its eigenvalue says, and there is none without friction") {
+TEST_CASE("without damping flutter by friction grows as its eigenvalue predicts, and there is none without friction") {
   for (const Real mu : {0.0, 0.49}) {
     CAPTURE(mu);
     // Steady sliding in large steps, which damp all vibrations; then small ones, and a disturbance of 1e-6.
@@ -407,7 +407,7 @@ TEST_CASE("a restart in contact continues bit for bit") {
   CHECK((again->inertia().velocity().array() == whole->inertia().velocity().array()).all());
 }
 
-TEST_CASE("energy that the scheme gains is told, and ends the run on request") {
+TEST_CASE("energy gained by the scheme warns, and ends the run on request") {
   // The trapezoidal rule on large rotations: averaged forces are no gradient.
   const auto swaying = [](MarchOptions options, RunReport& report, Outcome& outcome) {
     Problem<Smooth> block{

@@ -79,7 +79,7 @@ TEST_CASE("the schemes are of second order on a nonlinear vibration") {
   }
 }
 
-TEST_CASE("first-order weights are seen to be of first order") {
+TEST_CASE("first-order weights converge at first order") {
   // gamma > 1/2 without the means of generalised-alpha: the contrast that shows the test above can fail.
   const Field reference = swayed(newmark(), 3200);
   const Real coarse = (swayed(newmark(0.49, 0.9), 100) - reference).norm(),
@@ -87,7 +87,7 @@ TEST_CASE("first-order weights are seen to be of first order") {
   CHECK(std::log2(coarse / fine) < 1.3);
 }
 
-TEST_CASE("consistent and lumped mass weigh the same and differ by the mesh only") {
+TEST_CASE("consistent and lumped mass have the same total and differ by the mesh only") {
   for (const bool lumped : {false, true}) {
     Problem<Flying> block{{.body = mesh::rectangle({.size = {1, 2}, .cells = {3, 5}}),
                            .kinematics = {.thickness = 0.7},
@@ -116,7 +116,7 @@ TEST_CASE("a body in free flight keeps its momentum and takes no strain") {
   CHECK(march.report().iterations == 0);  // the guess is the motion
 }
 
-TEST_CASE("a rigid rotation goes on without strain") {
+TEST_CASE("a rigid rotation continues without strain") {
   Problem<Flying> block{{.body = mesh::rectangle({.origin = {-0.5, -0.5}, .cells = {2, 2}}),
                          .material = {.young = 1e6, .poisson = 0.3},
                          .density = 1, .time_integration = {.scheme = chung_hulbert(0.5)}}};
@@ -145,7 +145,7 @@ TEST_CASE("a rigid rotation goes on without strain") {
   CHECK(angular_momentum() == doctest::Approx(before).epsilon(1e-3));
 }
 
-TEST_CASE("an elastic block rebounds from a rigid wall and the books close") {
+TEST_CASE("the energy balance closes when an elastic block rebounds from a rigid wall") {
   for (const Real radius : {0.0, 0.5, 1.0}) {
     CAPTURE(radius);
     Problem<Landing> block{
@@ -176,7 +176,7 @@ TEST_CASE("an elastic block rebounds from a rigid wall and the books close") {
   }
 }
 
-TEST_CASE("a plastic block skids over a rough floor and the books close") {
+TEST_CASE("the energy balance closes when a plastic block slides over a rough floor") {
   Problem<Skidding> block{{.body = mesh::rectangle({.cells = {3, 3}}),
                            .material = {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 50}},
                            .density = 1,
@@ -201,7 +201,7 @@ TEST_CASE("a plastic block skids over a rough floor and the books close") {
   CHECK(std::abs(e.algorithmic) < 0.05 * e.external);
 }
 
-TEST_CASE("the local error is held under a tolerance, and the answer follows it") {
+TEST_CASE("steps keep the local error below its tolerance, and the error of the answer decreases with it") {
   const Field reference = swayed(chung_hulbert(0.5), 6400);
   Real last_error = 1;
   Index last_steps = 0;
@@ -223,7 +223,7 @@ TEST_CASE("the local error is held under a tolerance, and the answer follows it"
   CHECK(last_error < 1e-3 * reference.norm());
 }
 
-TEST_CASE("an imposed velocity with a consistent start sends no shock") {
+TEST_CASE("an imposed velocity with a consistent start causes no wave") {
   Problem<Flying> bar{{.body = mesh::rectangle({.size = {1, 5}, .cells = {1, 10}}),
                        .material = rubber,
                        .density = 1}};
@@ -233,7 +233,7 @@ TEST_CASE("an imposed velocity with a consistent start sends no shock") {
   REQUIRE(march.outcome());
 }
 
-TEST_CASE("a start velocity counts where it comes before the first step, and is refused after it") {
+TEST_CASE("a start velocity acts before the first step and is refused after it") {
   const auto bar = [] {
     return Problem<Flying>{{.body = mesh::rectangle({.size = {1, 5}, .cells = {1, 10}}),
                             .material = rubber,

@@ -76,19 +76,19 @@ verify::TangentReport check() {
   return verify::system_tangent(system, u, 2, 1, 1e-6);
 }
 
-TEST_CASE("tangent of a whole system, Coulomb") {
+TEST_CASE("the system tangent with Coulomb friction is exact") {
   const auto plane = check<Model<PlaneStrain, Coulomb>>(), axi = check<Model<Axisymmetric, Coulomb>>();
   CHECK(plane.by_differences < 1e-8);
   CHECK(axi.by_differences < 1e-8);
   CHECK(plane.asymmetry > 1e-3);
 }
-TEST_CASE("tangent of a whole system, Quasi-Coulomb: the lower triangle stands for all of it") {
+TEST_CASE("the system tangent with Quasi-Coulomb friction is exact and stored as its lower triangle") {
   const auto plane = check<Model<PlaneStrain, QuasiCoulomb>>(), axi = check<Model<Axisymmetric, QuasiCoulomb>>();
   CHECK(plane.by_differences < 1e-8);
   CHECK(axi.by_differences < 1e-8);
 }
 
-TEST_CASE("tangent of a whole system in space") {
+TEST_CASE("the system tangent in space is exact") {
   struct M : Model<ThreeDimensional, Frictionless> {
     using Element = MeanDilatation<Hex8>;
     using Enforcement = NoContact;
@@ -110,7 +110,7 @@ TEST_CASE("tangent of a whole system in space") {
 }
 
 // The predictor of a driven step: residual to first order after the increments still to come.
-TEST_CASE("the tangent predictor carries the driven increments") {
+TEST_CASE("the tangent predictor contains the driven increments") {
   using M = Model<PlaneStrain, QuasiCoulomb>;
   Bodies<M> body(mesh::rectangle({.size = {2, 1}, .cells = {2, 2}}), PlaneStrain{},
                {.young = 1000, .poisson = 0.3, .hardening = {.yield = 50, .modulus = 40}});

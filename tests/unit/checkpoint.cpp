@@ -281,7 +281,7 @@ TEST_CASE("multipliers and iterated bounds continue bit for bit") {
   continues_bit_for_bit<Multipliers>(automatic, {2, 8});
   continues_bit_for_bit<Multipliers>(equal, {13});
 }
-TEST_CASE("a law a contact in space continues bit for bit") {
+TEST_CASE("contacts in space with a law each continue bit for bit") {
   continues_bit_for_bit<Space>(automatic, {4, 9});
 }
 
@@ -360,7 +360,7 @@ struct Saved {
   }
 };
 
-TEST_CASE("damaged files are refused, and the problem is left alone") {
+TEST_CASE("a damaged restart file is refused, and the problem stays as it was") {
   Saved s;
   const std::string whole = read(s.file);
   CHECK(whole.size() > 2000);
@@ -433,7 +433,7 @@ TEST_CASE("the checksum is that of zlib") {
   CHECK(io::detail::crc("", 0) == 0);
 }
 
-TEST_CASE("a restart file takes no other one's place") {
+TEST_CASE("a restart file replaces nothing that is no regular file") {
   Saved s;
   const auto link = s.folder.path / "link", device = s.folder.path / "device";
   fs::create_symlink("/dev/null", device);
@@ -449,7 +449,7 @@ TEST_CASE("a restart file takes no other one's place") {
   CHECK(read(s.file) != old);
 }
 
-TEST_CASE("files for ParaView are XML with decimal points, and whole") {
+TEST_CASE("files for ParaView are complete XML with decimal points in every locale") {
   Saved s;
   auto large = scene<Plane>(600);  // 1803 nodes: there are thousands to be parted
   const auto points = s.folder.path / "a < b & \"c\"_0000.vtu", collection = s.folder.path / "a < b & \"c\".pvd";
@@ -503,7 +503,7 @@ TEST_CASE("files for ParaView are XML with decimal points, and whole") {
   CHECK(std::distance(fs::directory_iterator(s.folder.path), {}) == files);
 }
 
-TEST_CASE("a mesh of blocks that were not joined is warned of") {
+TEST_CASE("blocks that were not joined give a warning") {
   Problem<Plane>::Parameters p;
   p.body = mesh::rectangle({.size = {2, 1}, .cells = {2, 1}});
   p.material = {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 50}};
@@ -524,7 +524,7 @@ TEST_CASE("a mesh of blocks that were not joined is warned of") {
   CHECK(warnings[0].text.starts_with("2 nodes of the mesh lie where another one does, nodes "));
 }
 
-TEST_CASE("files of another run are refused") {
+TEST_CASE("restart files of another run are refused") {
   Saved s;
   auto fine = scene<Plane>(8);
   auto on_fine = fine->march(equal);
@@ -554,7 +554,7 @@ TEST_CASE("files of another run are refused") {
   CHECK(kept == std::vector<Real>{1, 2});
 }
 
-TEST_CASE("a file that cannot be written leaves the old one") {
+TEST_CASE("a restart file that cannot be written leaves the old one") {
   Saved s;
   const std::string old = read(s.file);
   CHECK_THROWS_WITH_AS(io::save(s.folder.path / "no" / "folder", s.march), doctest::Contains("cannot write"),
