@@ -196,13 +196,23 @@ const MarchOptions automatic{
     .end = 1, .initial = 0.02, .largest = 0.08, .mesh_error_interval = 3, .stops = {0.31, 0.77}};
 const MarchOptions equal{.end = 1, .steps = 25};
 
-// Bits of a run, but for the times that it took and the gaps between the members of structs.
+// Bits of a run, but for the times that it took.
 template <class Model>
 std::vector<Section> bits(Problem<Model>& problem, March<Model>& march) {
-  std::vector<Section> kept;
-  for (Section& s : Archive::of(march).sections)
-    if (!s.name.ends_with(", nodes") && s.name != "run, sums" && s.name != "run, last step")
-      kept.push_back(std::move(s));
+  std::vector<Section> kept = Archive::of(march).sections;
+  for (Section& s : kept)
+    if (s.name == "run, sums") {
+      Archive sums;
+      sums.sections = {s};
+      RunReport report;
+      struct {
+        RunReport& report;
+        void serialize(Archive& archive) { archive("run, sums", report); }
+      } part{report};
+      sums.restore(part);
+      report.timings = {};
+      s = Archive::of(part).sections[0];
+    }
   const auto keep = [&](const std::string& name, auto... values) {
     std::vector<Real> list{static_cast<Real>(values)...};
     Archive numbers;

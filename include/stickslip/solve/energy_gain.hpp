@@ -31,6 +31,18 @@ struct Energies {
   Real unbalanced() const {
     return external - kinetic - elastic - plastic - penalty - friction - damping - algorithmic;
   }
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("kinetic", self.kinetic);
+    visit("elastic", self.elastic);
+    visit("plastic", self.plastic);
+    visit("penalty", self.penalty);
+    visit("friction", self.friction);
+    visit("damping", self.damping);
+    visit("external", self.external);
+    visit("algorithmic", self.algorithmic);
+  }
 };
 
 /// Whether a model's material and enforcement tell their energies; those of a user may not.
