@@ -26,7 +26,8 @@
 
 namespace stickslip {
 
-/// A part of a state under its name: `count` values of `size` bytes each, without gaps, of a `layout` as in members.hpp.
+/// A part of a state under its name: `count` values of `size` bytes each, without gaps, of a `layout` as in
+/// members.hpp.
 struct Section {
   std::string name, layout{};
   std::uint64_t size = 0, count = 0;
@@ -165,10 +166,9 @@ class Archive {
     } else if constexpr (detail::is_gapless<T>()) {
       exchange(name, layout<T>(), values, count, sizeof(T));
     } else {
-      if constexpr (ListsMembers<T>)
-        static_assert(lists_all_members<T>(),
-                      "stickslip: members() of a struct that is kept leaves a member out, or its members are not in the "
-                      "order of their declaration; see docs/checkpoints.md.");
+      static_assert(detail::lists_are_complete<T>(),
+                    "stickslip: members() of a struct that is kept leaves a member out or lists one twice; see "
+                    "docs/checkpoints.md.");
       std::vector<char> bytes(count * detail::packed_size<T>());
       char* to = bytes.data();
       if (mode_ == Mode::taking)

@@ -52,7 +52,7 @@ struct FixedList<std::array<E, n>> : std::true_type {
   static constexpr std::size_t size = n;
 };
 template <class T>
-    requires(std::derived_from<T, Eigen::PlainObjectBase<T>> && T::SizeAtCompileTime > 0 && is_number<typename T::Scalar>)
+  requires(std::derived_from<T, Eigen::PlainObjectBase<T>>&& T::SizeAtCompileTime > 0 && is_number<typename T::Scalar>)
 struct FixedList<T> : std::true_type {
   using Element = typename T::Scalar;
   static constexpr std::size_t size = static_cast<std::size_t>(T::SizeAtCompileTime);
@@ -88,11 +88,12 @@ constexpr std::size_t packed_size() {
   } else if constexpr (std::is_empty_v<T>) {
     return 0;
   } else {
-    static_assert(ListsMembers<T>,
-                  "stickslip: a struct is kept and compared by a list of its members, for its bytes may have gaps; give "
-                  "it template <class Self, class Visit> static constexpr void members(Self& self, Visit&& visit) with "
-                  "visit(\"x\", self.x) for each member x, or void serialize(Archive&) where it owns memory; see "
-                  "docs/checkpoints.md.");
+    static_assert(
+        ListsMembers<T>,
+        "stickslip: a struct is kept and compared by a list of its members, for its bytes may have gaps; give "
+        "it template <class Self, class Visit> static constexpr void members(Self& self, Visit&& visit) with "
+        "visit(\"x\", self.x) for each member x, or void serialize(Archive&) where it owns memory; see "
+        "docs/checkpoints.md.");
     std::size_t sum = 0;
     if constexpr (ListsMembers<T>)
       T::members(unmade<T>.value, [&]<class M>(const char*, M&) { sum += packed_size<M>(); });
@@ -113,8 +114,14 @@ struct Anything {
 // Whether an aggregate has so many members, or more.
 template <class T, std::size_t... k>
 constexpr bool has_members(std::index_sequence<k...>) {
-  return requires { T{(static_cast<void>(k), Anything{})...}; };
+  return requires {
+    T{(static_cast<void>(k), Anything{})...};
+  };
 }
+
+// Whether all lists that a value has are complete.
+template <class T>
+constexpr bool lists_are_complete();
 
 }  // namespace detail
 
@@ -122,11 +129,13 @@ constexpr bool has_members(std::index_sequence<k...>) {
 /// those of alignment. A member that is added and not listed makes it false.
 template <ListsMembers T>
 constexpr bool lists_all_members() {
-  const auto aligned = [](std::size_t at, std::size_t alignment) { return (at + alignment - 1) / alignment * alignment; };
+  const auto aligned = [](std::size_t at, std::size_t alignment) {
+    return (at + alignment - 1) / alignment * alignment;
+  };
   std::size_t end = 0;
   bool all = true;
   T::members(detail::unmade<T>.value, [&]<class M>(const char*, M&) {
-    if constexpr (ListsMembers<M>) all = all && lists_all_members<M>();
+    all = all && detail::lists_are_complete<M>();
     if constexpr (!std::is_empty_v<M>) end = aligned(end, alignof(M)) + sizeof(M);
   });
   // Members that share the padding at the end of others make a struct smaller than that.
@@ -139,6 +148,16 @@ constexpr bool lists_all_members() {
   return all;
 }
 
+template <class T>
+constexpr bool detail::lists_are_complete() {
+  if constexpr (FixedList<T>::value)
+    return lists_are_complete<typename FixedList<T>::Element>();
+  else if constexpr (ListsMembers<T>)
+    return lists_all_members<T>();
+  else
+    return true;
+}
+
 /// Names and types of what a value consists of: numbers as f8, i4, u8, b1 or c1, lists with their length in front,
 /// structs in parentheses: (gap f8, force 2 f8, touching b1).
 template <class T>
@@ -146,11 +165,11 @@ std::string layout() {
   if constexpr (std::is_enum_v<T>) {
     return layout<std::underlying_type_t<T>>();
   } else if constexpr (detail::is_number<T>) {
-    const char kind = std::same_as<T, bool>        ? 'b'
-                      : std::same_as<T, char>      ? 'c'
+    const char kind = std::same_as<T, bool>         ? 'b'
+                      : std::same_as<T, char>       ? 'c'
                       : std::is_floating_point_v<T> ? 'f'
-                      : std::is_signed_v<T>        ? 'i'
-                                                   : 'u';
+                      : std::is_signed_v<T>         ? 'i'
+                                                    : 'u';
     return kind + std::to_string(sizeof(T));
   } else if constexpr (detail::FixedList<T>::value) {
     return std::to_string(detail::FixedList<T>::size) + " " + layout<typename detail::FixedList<T>::Element>();
@@ -174,7 +193,7 @@ void pack(const T& value, char*& to) {
     to += sizeof(T);
   } else if constexpr (FixedList<T>::value) {
     for (std::size_t k = 0; k < FixedList<T>::size; ++k) pack(value.data()[k], to);
-  } else if constexpr (!std::is_empty_v<T>) {
+  } else if constexpr (ListsMembers<T>) {
     T::members(value, [&](const char*, const auto& member) { pack(member, to); });
   }
 }
@@ -188,7 +207,7 @@ void unpack(T& value, const char*& from) {
     from += sizeof(T);
   } else if constexpr (FixedList<T>::value) {
     for (std::size_t k = 0; k < FixedList<T>::size; ++k) unpack(value.data()[k], from);
-  } else if constexpr (!std::is_empty_v<T>) {
+  } else if constexpr (ListsMembers<T>) {
     T::members(value, [&](const char*, auto& member) { unpack(member, from); });
   }
 }
