@@ -318,7 +318,7 @@ void March<Model>::serialize(Archive& archive) {
   RunState::serialize(archive);
   if constexpr (keeps_energy)
     if (gain_) {
-      gain_->serialize(archive, "run, energy gain");
+      gain_->serialize(archive, "run, energy balance");
       if (archive.loading()) gained_.clear();
     }
   if (!archive.loading()) return;

@@ -269,7 +269,7 @@ class Scene {
     archive.check_equal("friction", type_name<typename Model::Friction>());
     archive.check_equal("enforcement", type_name<typename Model::Enforcement>());
     if constexpr (with_contact) archive.check_equal("tool", type_name<ToolOf<Model>>());
-    archive.check_equal("inertia", type_name<typename Model::TimeIntegration>());
+    archive.check_equal("time integration", type_name<typename Model::TimeIntegration>());
     archive.check_equal("damping", type_name<DampingOf<Model>>());
     archive.check_equal("supports", system_->dofs().fingerprint());
     archive("displacement", u_);

@@ -31,6 +31,18 @@ struct Energies {
   Real unbalanced() const {
     return external - kinetic - elastic - plastic - penalty - friction - damping - algorithmic;
   }
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("kinetic", self.kinetic);
+    visit("elastic", self.elastic);
+    visit("plastic", self.plastic);
+    visit("penalty", self.penalty);
+    visit("friction", self.friction);
+    visit("damping", self.damping);
+    visit("external", self.external);
+    visit("algorithmic", self.algorithmic);
+  }
 };
 
 namespace detail {
@@ -142,20 +154,20 @@ class EnergyGain {
     return energies_.algorithmic < 0 && scale > 0 ? -energies_.algorithmic / scale : 0;
   }
 
-  /// The books, to be kept with a march (io::save).
-  void serialize(Archive& archive, const std::string& books = "books") {
-    archive(books + ", energies", energies_);
-    archive(books + ", start", start_);
-    archive(books + ", kinetic energy of the start", start_kinetic_);
-    archive(books + ", largest work", largest_work_);
-    archive(books + ", displacement", u_);
-    archive(books + ", external", external_);
+  /// The energy balance, to be kept with a march (io::save).
+  void serialize(Archive& archive, const std::string& balance = "energy balance") {
+    archive(balance + ", energies", energies_);
+    archive(balance + ", start", start_);
+    archive(balance + ", kinetic energy of the start", start_kinetic_);
+    archive(balance + ", largest work", largest_work_);
+    archive(balance + ", displacement", u_);
+    archive(balance + ", external", external_);
     if constexpr (!has_inertia<Model>) {
-      archive(books + ", internal", before_.internal);
-      archive(books + ", contact", before_.contact);
-      archive(books + ", reaction", before_.reaction);
+      archive(balance + ", internal", before_.internal);
+      archive(balance + ", contact", before_.contact);
+      archive(balance + ", reaction", before_.reaction);
     }
-    if constexpr (with_forces) archive.resizable(books + ", contact nodes", before_.forces);
+    if constexpr (with_forces) archive.resizable(balance + ", contact nodes", before_.forces);
   }
 
  private:

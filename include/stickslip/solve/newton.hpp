@@ -48,6 +48,18 @@ struct WorkCounts {
   Index evaluations = 0;           ///< of the system
   Index tangents_unused = 0;       ///< evaluations of a tangent that was not factorised
   Index evaluations_repeated = 0;  ///< for a tangent that was left out at first
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("factor_bytes", self.factor_bytes);
+    visit("factorizations", self.factorizations);
+    visit("indefinite_factorizations", self.indefinite_factorizations);
+    visit("line_search_cuts", self.line_search_cuts);
+    visit("corrections", self.corrections);
+    visit("evaluations", self.evaluations);
+    visit("tangents_unused", self.tangents_unused);
+    visit("evaluations_repeated", self.evaluations_repeated);
+  }
 };
 
 /// Newton's method on the displacements and the condensed unknowns, with a line search. Work space and the solver's
