@@ -73,7 +73,7 @@ class March : public RunState {
   friend class Problem<Model>;
   using Mechanical = MechanicsOf<Model>;
   using Iterate = typename System<Mechanical>::Iterate;
-  March(Problem<Model>& problem, const MarchOptions& options);
+  March(Problem<Model>& problem, const MarchOptions& options, const SolverParametersOf<Model>& solver);
   struct Attempt {
     NewtonReport newton{};
     Index outer_iterations = 1, first_iterations = 0;
@@ -121,12 +121,14 @@ namespace detail {
 template <class Model>
 struct SceneOf {
   struct type {};
+  using Solver = NoSolverParameters;
 };
 template <class Model>
 concept SoundMechanics = rule::HasSymmetry<Model> && rule::LinearSolver<Model> && valid_model<MechanicsOf<Model>>;
 template <SoundMechanics Model>
 struct SceneOf<Model> {
   using type = Scene<MechanicsOf<Model>>;
+  using Solver = SolverParametersOf<Model>;
 };
 }  // namespace detail
 
@@ -140,21 +142,23 @@ class Problem : public detail::SceneOf<Model>::type {
   using Base = typename detail::SceneOf<Model>::type;
   using Base::Base;
 
-  /// Begins a run from the present state; the problem must outlive it.
-  March<Model> march(const MarchOptions& options) {
+  /// Begins a run from the present state; the problem must outlive it. Throws std::invalid_argument for options or
+  /// parameters of the solver that cannot be taken.
+  March<Model> march(const MarchOptions& options, const typename detail::SceneOf<Model>::Solver& solver = {}) {
     options.validate(this->time());
-    return March<Model>(*this, options);
+    return March<Model>(*this, options, solver);
   }
 };
 
 template <class Model>
-March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
+March<Model>::March(Problem<Model>& problem, const MarchOptions& options, const SolverParametersOf<Model>& solver)
     : RunState(options, problem.time_),
       problem_(problem),
       state_(problem.revision_),
       newton_(NewtonOptions{.tolerance = options.tolerance,
                             .max_iterations = options.max_iterations,
-                            .line_search = options.line_search}) {
+                            .line_search = options.line_search},
+              solver) {
   if constexpr (has_outer_iterations<Model>() || has_lag<Model>()) outer_guess_ = problem.u_;
   if (options.mesh_error_interval > 0)
     stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);

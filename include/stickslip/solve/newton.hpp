@@ -56,7 +56,8 @@ struct WorkCounts {
 template <class Solver, bool inexact_tangent = false>
 class Newton {
  public:
-  explicit Newton(const NewtonOptions& chosen = {}) : options(chosen) {}
+  explicit Newton(const NewtonOptions& chosen = {}, const SolverParameters<Solver>& solver = {})
+      : options(chosen), solver_(make_solver<Solver>(solver)) {}
 
   /// Whether the solver counts negative pivots.
   static constexpr bool tells_pivots = requires(const Solver& solver) { solver.negative_pivots(); };
