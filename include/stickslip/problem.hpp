@@ -107,7 +107,7 @@ class March : public RunState {
 
   Scene<Mechanical>& problem_;
   Index state_;  // revision of the converged state that the next step starts from
-  Newton<SolverOf<Model>, has_inexact_tangent<Model>()> newton_;
+  Newton<SolverOf<Model>, has_inexact_tangent<Model>(), typename System<Mechanical>::Space> newton_;
   Field trial_, driven_, outer_guess_;
   std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
@@ -348,7 +348,7 @@ typename March<Model>::Attempt March<Model>::attempt(Iterate& iterate, Field& u,
   } else {
     driven_ = u - problem_.u_;
     u = problem_.u_;
-    newton = newton_.solve(iterate, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
+    newton = newton_.solve(iterate, u, time, dt, system.space().max(driven_) == 0 ? nullptr : &driven_);
   }
   if constexpr (has_friction<Model> && !has_inertia<Model>)
     if (newton.failure) retry(iterate, u, time, dt, newton);
@@ -380,12 +380,12 @@ typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field&
   System<Mechanical>& system = *problem_.system_;
   Diagnosis<Mechanical>& diagnosis = *problem_.diagnosis_;
   // Of the solution, for the next evaluations may be of other states.
-  const Real scale = std::max(system.forces().scale(), now_.largest_force);
+  const Real scale = std::max(system.forces().scale(system.space()), now_.largest_force);
   const Real left = newton.residual > 0 ? system.forces().norm : 0;  // not of a body that only moves
   // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
   if constexpr (!has_inertia<Model>) {
     driven_ = u - problem_.u_;
-    if (!problem_.proven_ || driven_.template lpNorm<Eigen::Infinity>() > system.body().extent() ||
+    if (!problem_.proven_ || system.space().max(driven_) > system.body().extent() ||
         diagnosis.loose_part(false) >= 0) {
       if (!system.has_tangent()) {
         ++newton_.counts.evaluations;
@@ -472,6 +472,7 @@ void March<Model>::advance() {
       }
       if (!failure && !too_coarse) {
         const ContactSummary contact = contact_summary(problem_.pairs_);
+        driven_ = u - problem_.u_;
         StepReport step{.time = time,
                         .dt = dt,
                         .iterations = newton.iterations,
@@ -481,7 +482,7 @@ void March<Model>::advance() {
                         .residual = newton.residual,
                         .contact = contact,
                         .local_error = local_error,
-                        .work = std::abs(system.forces().internal.dot(u - problem_.u_)) + contact.dissipated};
+                        .work = std::abs(system.space().dot(system.forces().internal, driven_)) + contact.dissipated};
         if (Reason reason = doubt(iterate, u, step, newton); reason.failure)
           return end(std::move(reason), dt, rejected + 1);
         if (newton_.tells_pivots && newton.iterations == 0) step.negative_pivots = now_.negative_pivots;

@@ -74,7 +74,7 @@ Answer answer(Solver& solver, const Matrix& m) {
     a.condition =
         a.factorization == Factorization::failed
             ? std::numeric_limits<Real>::infinity()
-            : digits.condition(m.view(), [&](const Field& b, Field& x) { return solver.solve(b.data(), x.data()); });
+            : digits.condition(m.view(), SerialSpace{}, [&](const Field& b, Field& x) { return solver.solve(b.data(), x.data()); });
   }
   if (a.factorization != Factorization::failed) a.solved = solver.solve(right_hand_side(m).data(), a.x.data());
   return a;

@@ -87,7 +87,7 @@ class Corrected {
   Symmetric solver_;
   NodeBlocks corrections_{};
   Index size_ = 0, inner_iterations_ = 0;
-  Orthodir krylov_;
+  Orthodir<> krylov_;
 };
 
 }  // namespace stickslip
