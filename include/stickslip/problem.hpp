@@ -385,8 +385,7 @@ typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field&
   // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
   if constexpr (!has_inertia<Model>) {
     driven_ = u - problem_.u_;
-    if (!problem_.proven_ || system.space().max(driven_) > system.body().extent() ||
-        diagnosis.loose_part(false) >= 0) {
+    if (!problem_.proven_ || system.space().max(driven_) > system.body().extent() || diagnosis.loose_part(false) >= 0) {
       if (!system.has_tangent()) {
         ++newton_.counts.evaluations;
         ++newton_.counts.evaluations_repeated;

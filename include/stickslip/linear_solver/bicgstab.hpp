@@ -71,7 +71,8 @@ class Bicgstab {
     solver_.setTolerance(limits_.tolerance);
     solver_.setMaxIterations(tight_ ? limits_.iterations : std::min<Index>(limits_.iterations, 300));
     return refinement_.solve(
-        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); }, limits_.tolerance);
+        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); },
+        limits_.tolerance);
   }
   bool iterate(const Real* right_hand_side, Real* solution) {
     Eigen::Map<Field>(solution, matrix_.size) = solver_.solve(Eigen::Map<const Field>(right_hand_side, matrix_.size));

@@ -19,7 +19,9 @@ class ConjugateGradients {
   static constexpr Symmetry storage = Symmetry::symmetric;
   using Parameters = IterationLimits;
 
-  explicit ConjugateGradients(const Parameters& limits = {}) : limits_(limits) { limits.validate("ConjugateGradients"); }
+  explicit ConjugateGradients(const Parameters& limits = {}) : limits_(limits) {
+    limits.validate("ConjugateGradients");
+  }
 
   void analyze(const SparseView& pattern) {
     refinement_.resize(pattern.size);
@@ -42,7 +44,8 @@ class ConjugateGradients {
   bool solve(const Real* right_hand_side, Real* solution) {
     iterations_ = 0;
     return refinement_.solve(
-        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); }, limits_.tolerance);
+        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); },
+        limits_.tolerance);
   }
 
   /// Iterations of the last `solve`.

@@ -47,7 +47,9 @@ struct ParametersOfSolver {
   using type = NoSolverParameters;
 };
 template <class L>
-requires requires { typename L::Parameters; }
+  requires requires {
+    typename L::Parameters;
+  }
 struct ParametersOfSolver<L> {
   using type = typename L::Parameters;
 };
@@ -77,8 +79,9 @@ concept LinearSolverPolicy = requires(L& solver, const SparseView& matrix, const
   requires std::same_as<typename L::Role, role::LinearSolver>;
   requires std::same_as<decltype(L::accepts), const Symmetry>;
   requires std::same_as<decltype(L::storage), const Symmetry>;
-  requires std::same_as<SolverParameters<L>, NoSolverParameters> ||
-      std::constructible_from<L, const SolverParameters<L>&>;
+  requires std::same_as<SolverParameters<L>, NoSolverParameters> || std::constructible_from < L,
+      const SolverParameters<L>
+  & > ;
   {solver.analyze(matrix)};
   { solver.factorize(matrix) } -> std::same_as<Factorization>;
   { solver.solve(right_hand_side, solution) } -> std::same_as<bool>;

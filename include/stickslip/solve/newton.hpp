@@ -252,8 +252,8 @@ class Newton {
     if constexpr (is_direct<Solver>)
       if (!std::exchange(judged_, true)) {
         const Stopwatch watch(system.timings.solve);
-        const Real condition =
-            digits_.condition(system.matrix(), system.space(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
+        const Real condition = digits_.condition(
+            system.matrix(), system.space(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
         if (condition > FactorDigits::limit) return {FailureCause::singular_matrix, {}};
       }
     const Index corrections = corrections_so_far();
