@@ -160,6 +160,10 @@ struct SolverFor<Solver, system> {
 template <class Model>
 using SolverOf = typename detail::SolverFor<typename Model::LinearSolver, system_symmetry<Model>>::type;
 
+/// What that is made from.
+template <class Model>
+using SolverParametersOf = SolverParameters<SolverOf<Model>>;
+
 /// Triangle or full matrix: symmetric systems keep their lower triangle unless the solver wants all of it; general ones
 /// only for a solver that takes what the triangle lacks apart, which contact and friction can tell and a material
 /// cannot.

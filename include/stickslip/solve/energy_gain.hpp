@@ -91,6 +91,7 @@ class EnergyGain {
   /// Books the step that has just been taken.
   void update(const StepReport& step) {
     const auto& system = scene_.system();
+    const auto& space = system.space();
     const Field du = scene_.displacement() - u_;
     Real old_share = 0.5;  // weight of the smooth forces at the start of the step
     if constexpr (has_inertia<Model>) old_share = scene_.inertia().scheme().alpha_f;
@@ -107,21 +108,22 @@ class EnergyGain {
       if (system.dofs().equation(c) == IndexMap::constrained) continue;
       residual_work += du[c] * std::exchange(reaction[c], 0.0);
     }
-    const Real by_tools = tool_work(du, step.time - step.dt, step.time);
-    Real external = du.dot(mean(external_, system.forces().external)) + by_tools;
+    residual_work = space.sum(residual_work);
+    const Real by_tools = space.sum(tool_work(du, step.time - step.dt, step.time));
+    Real external = space.dot(du, mean(external_, system.forces().external)) + by_tools;
     Real algorithmic = 0;
     if constexpr (has_inertia<Model>) {
       // All forces that the balance averages, those of inertia among them, do the work of supports, loads and residual.
-      external += du.dot(reaction);
+      external += space.dot(du, reaction);
       algorithmic = external + residual_work;
       if constexpr (has_damping<Model>) {
         energies_.damping += scene_.inertia().dissipated();
         algorithmic -= scene_.inertia().dissipated();
       }
     } else {
-      external += du.dot(mean(before_.reaction, reaction));
-      algorithmic = du.dot(mean(before_.internal, system.forces().internal)) +
-                    du.dot(mean(before_.contact, system.forces().contact)) + by_tools;
+      external += space.dot(du, mean(before_.reaction, reaction));
+      algorithmic = space.dot(du, mean(before_.internal, system.forces().internal)) +
+                    space.dot(du, mean(before_.contact, system.forces().contact)) + by_tools;
       before_.internal = system.forces().internal;
       before_.contact = system.forces().contact;
       before_.reaction = reaction;
@@ -186,6 +188,8 @@ class EnergyGain {
     });
     if constexpr (has_contact<Model>)
       scene_.visit_contacts([&](const auto& pair) { energies_.penalty += pair.stored_energy(); });
+    const auto& space = scene_.system().space();
+    for (Real* energy : {&energies_.elastic, &energies_.plastic, &energies_.penalty}) *energy = space.sum(*energy);
     if constexpr (has_inertia<Model>) energies_.kinetic = scene_.inertia().kinetic_energy();
   }
 

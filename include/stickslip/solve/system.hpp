@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/vector_space.hpp>
 #include <stickslip/body/bodies.hpp>
 #include <stickslip/body/inertia_forces.hpp>
 #include <stickslip/contact/contact_pair.hpp>
@@ -28,7 +29,10 @@ struct NodalForces {
 
   /// What the residual is measured against: the largest of the norms of the internal, contact and external forces,
   /// those at supports included (theory.md, eq. 6.2).
-  Real scale() const { return std::max({internal.norm(), contact.norm(), external.norm()}); }
+  template <VectorSpace Space>
+  Real scale(const Space& space) const {
+    return std::max({space.norm(internal), space.norm(contact), space.norm(external)});
+  }
 };
 
 /// The discrete balance of a scene: residual and tangent as a function of the nodal displacements (theory.md, eq. 1.1),
@@ -42,6 +46,7 @@ class System {
   using Matrix = typename BodiesType::Matrix;
   using Pairs = StoredIf<has_contact<Model>, ContactPairs<Model>, Matrix>;
   using Inertia = InertiaForces<Model>;
+  using Space = SerialSpace;
   static constexpr int dim = Model::Kinematics::dim;
   static constexpr bool weighs_body = has_inertia<Model> && (has_contact<Model> || has_damping<Model>);
   class Iterate;
@@ -77,6 +82,8 @@ class System {
   }
 
   const IndexMap& dofs() const { return dofs_; }
+  /// Takes the norms and products of vectors by component or unknown, for all who solve for them.
+  const Space& space() const { return space_; }
   /// The tangent of the last evaluation that was asked for one.
   SparseView matrix() const {
     SparseView view = matrix_.view();
@@ -116,10 +123,10 @@ class System {
   /// Bound of the residual that round-off alone leaves: the largest stiffness of the body and of sticking times the
   /// extent of the coordinates (theory.md, eq. 6.3).
   Real roundoff(const Field& u) const {
-    const Real moved = u.lpNorm<Eigen::Infinity>(), extent = bodies_.extent();
+    const Real moved = space_.max(u), extent = bodies_.extent();
     Real force = stiffness_ * (exact_strains && !has_contact<Model> ? moved : moved + extent);
     if (has_contact<Model>) force += stick_stiffness_ * (moved + extent);
-    return 16 * std::numeric_limits<Real>::epsilon() * force * std::sqrt(Real(dofs_.unknowns()));
+    return 16 * std::numeric_limits<Real>::epsilon() * force * std::sqrt(space_.sum(Real(dofs_.unknowns())));
   }
 
   /// Largest entry of the body's tangent at the displacements u [force / length]; 0 where it has none. Spoils the last
@@ -192,7 +199,7 @@ class System {
       couplings_.scale(inertia_.contact_share());
     }
     dofs_.gather(forces_.balance, forces_.residual);
-    forces_.norm = forces_.residual.norm();
+    forces_.norm = space_.norm(forces_.residual);
     if (!std::isfinite(forces_.norm)) return {FailureCause::not_finite, {}};
     has_tangent_ = ev.want != Want::residual;
     evaluated_ = true;
@@ -239,11 +246,12 @@ class System {
   // The stiffnesses that round-off meets, once an iteration.
   void measure_stiffness() {
     measured_ = true;
-    stiffness_ = matrix_.largest();
+    stiffness_ = space_.max(matrix_.largest());
     stick_stiffness_ = 0;
     for_each_contact(pairs_, [&](const auto& pair) {
       stick_stiffness_ = std::max(stick_stiffness_, pair.largest_stick_stiffness());
     });
+    stick_stiffness_ = space_.max(stick_stiffness_);
   }
   template <class... Types>
   static constexpr bool take_deformation(BodyTypes<Types...>) {
@@ -254,6 +262,7 @@ class System {
   BodiesType& bodies_;
   Pairs& pairs_;
   Inertia& inertia_;
+  [[no_unique_address]] Space space_{};
   IndexMap dofs_;
   Matrix matrix_;
   [[no_unique_address]] Couplings couplings_;
@@ -330,11 +339,12 @@ class System<Model>::Iterate {
     const Real share = s.inertia_.contact_share();
     s.dofs_.gather(s.constraint_force_, s.open_);
     s.open_ = s.forces_.residual - share * s.open_;
-    const Real imbalance = s.open_.norm();
+    const Real imbalance = s.space_.norm(s.open_);
     Real constraints = s.bodies_.constraint_merit();
     if constexpr (weighs_body) constraints *= std::pow(s.inertia_.body_share(), 2);
     for_each_contact(s.pairs_, [&](const auto& pair) { constraints += pair.constraint_merit(); });
-    s.forces_.norm = std::max({s.forces_.norm, imbalance, share * s.constraint_force_.norm()});
+    constraints = s.space_.sum(constraints);
+    s.forces_.norm = std::max({s.forces_.norm, imbalance, share * s.space_.norm(s.constraint_force_)});
     merit_ = std::hypot(imbalance, share * std::sqrt(constraints));
     return {};
   }
