@@ -55,6 +55,7 @@ using BodyDescriptions = typename detail::BodyLists<Model, BodyTypesOf<Model>>::
 template <class Model>
 class Bodies {
   using Lists = detail::BodyLists<Model, BodyTypesOf<Model>>;
+  using First = typename std::tuple_element_t<0, typename Lists::Stored>::value_type;
 
  public:
   using Kinematics = typename Model::Kinematics;
@@ -83,8 +84,8 @@ class Bodies {
     for_each([&](const auto& body) { extent_ = std::max(extent_, body.extent()); });
   }
   /// One body without a name.
-  template <class MeshType, class Material>
-  Bodies(MeshType mesh, const Kinematics& kinematics, const Material& material) requires(one_type)
+  Bodies(typename First::MeshType mesh, const Kinematics& kinematics,
+         const typename First::Material& material) requires(one_type)
       : Bodies(one(std::move(mesh), material), kinematics) {}
   Bodies(const Bodies&) = delete;
   Bodies& operator=(const Bodies&) = delete;
@@ -117,7 +118,6 @@ class Bodies {
   /// std::invalid_argument, which lists what there is, if there is none.
   template <class Visit>
   auto with_side(const std::string& name, Visit&& visit) const {
-    using First = typename std::tuple_element_t<0, typename Lists::Stored>::value_type;
     std::optional<decltype(visit(std::declval<const First&>(), name))> result;
     for_each([&](const auto& body) {
       if (!result && (count_ == 1 || name.starts_with(body.name() + ".")))
@@ -195,8 +195,8 @@ class Bodies {
   }
 
  private:
-  template <class MeshType, class Material>
-  static BodyDescriptions<Model> one(MeshType mesh, const Material& material) {
+  static BodyDescriptions<Model> one(typename First::MeshType mesh,
+                                     const typename First::Material& material) requires(one_type) {
     BodyDescriptions<Model> list(1);
     list[0].mesh = std::move(mesh);
     list[0].material = material;
