@@ -457,6 +457,7 @@ void March<Model>::advance() {
     const Real time = now_.control.next();
     const Real dt = time - problem_.time_;
     Failure failure;
+    system.update(problem_.u_, problem_.time_);
     {
       Iterate iterate(system);
       const Attempt tried = attempt(iterate, u, time, dt);

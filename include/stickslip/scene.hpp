@@ -32,6 +32,7 @@ struct SceneParameters {
   [[no_unique_address]] typename Model::TimeIntegration time_integration{};
   [[no_unique_address]] DampingOf<Model> damping{};
   [[no_unique_address]] StoredIf<has_contact<Model>, Contacts<Model>, Tag> contacts{};
+  [[no_unique_address]] TermsOf<Model> terms{};
 
   BodyDescriptions<Model> descriptions() && {
     BodyDescriptions<Model> list(1);
@@ -49,6 +50,7 @@ struct SceneParameters<Model, Tag, true> {
   [[no_unique_address]] typename Model::TimeIntegration time_integration{};
   [[no_unique_address]] DampingOf<Model> damping{};
   [[no_unique_address]] StoredIf<has_contact<Model>, Contacts<Model>, Tag> contacts{};
+  [[no_unique_address]] TermsOf<Model> terms{};
 
   BodyDescriptions<Model> descriptions() && { return std::move(bodies); }
 };
@@ -67,11 +69,15 @@ class Scene {
 
   /// Throws std::invalid_argument, naming the input, before anything is computed.
   explicit Scene(Parameters parameters)
-      : bodies_(std::move(parameters).descriptions(), validated(parameters.kinematics)) {
+      : bodies_(std::move(parameters).descriptions(), validated(parameters.kinematics)),
+        terms_(std::move(parameters.terms)) {
     if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
+    Index components = bodies_.node_count() * dim;
+    std::apply([&](auto&... terms) { ((terms.number(components), components += terms.unknowns()), ...); }, terms_);
     if constexpr (has_inertia<Model>)
-      inertia_.emplace(bodies_, validated(parameters.time_integration), validated(parameters.damping), contact_nodes());
-    u_.setZero(bodies_.node_count() * dim);
+      inertia_.emplace(bodies_, validated(parameters.time_integration), validated(parameters.damping), contact_nodes(),
+                       components);
+    u_.setZero(components);
     last_increment_ = reactions_ = u_;
     if constexpr (has_inertia<Model>) increment_before_ = u_;
   }
@@ -101,6 +107,16 @@ class Scene {
     if (std::erase_if(driven_, [&](const SideValue& d) { return d.side == side && d.component == component; }) == 0)
       throw std::invalid_argument("release of side \"" + side + "\": it has no support in component " +
                                   std::to_string(component));
+    changed_ = true;
+    return *this;
+  }
+  /// Makes a component of a node depend on others: u_dependent = sum of weight * u_master + offset(time), components
+  /// counted node * dim + i over all bodies. Where that contradicts supports or another constraint, the next march
+  /// throws std::invalid_argument.
+  Scene& constrain(LinearConstraint constraint) {
+    for (const IndexMap::Weighted& m : constraint.dependent.masters) require_exists(m.index);
+    require_exists(constraint.dependent.component);
+    constraints_.push_back(std::move(constraint));
     changed_ = true;
     return *this;
   }
@@ -138,6 +154,8 @@ class Scene {
     return *system_;
   }
   const BodiesType& bodies() const { return bodies_; }
+  /// The user's own terms.
+  const TermsOf<Model>& terms() const { return terms_; }
   /// The body of a model that names no types of bodies.
   const auto& body() const requires(!detail::NamesBodies<Model>) { return bodies_.only(); }
   /// Converged nodal displacements, node * dim + component [length].
@@ -192,10 +210,12 @@ class Scene {
   void prepare() {
     if (system_ && !changed_) return;
     const Timings spent = system_ ? system_->timings : Timings{};
+    const Index revision_of_pattern = system_ ? system_->pattern_revision() : numberings_;
     diagnosis_.reset();
     system_.reset();
-    ++numberings_;
-    system_ = std::make_unique<System<Model>>(bodies_, pairs_, inertia_term(), driven_, loads_, numberings_);
+    numberings_ = revision_of_pattern + 1;
+    system_ = std::make_unique<System<Model>>(bodies_, pairs_, inertia_term(), driven_, loads_, numberings_, &terms_,
+                                              constraints_);
     diagnosis_ = std::make_unique<Diagnosis<Model>>(*system_);
     system_->timings = spent;
     changed_ = false;
@@ -279,6 +299,7 @@ class Scene {
     archive("time increment before", increment_before_dt_);
     archive("reactions", reactions_);
     bodies_.serialize(archive);
+    std::apply([&](auto&... terms) { (terms.serialize(archive), ...); }, terms_);
     if constexpr (has_inertia<Model>) {
       archive("increment before", increment_before_);
       inertia_->serialize(archive);
@@ -324,6 +345,10 @@ class Scene {
     if constexpr (requires { parameters.validate(); }) parameters.validate();
     return parameters;
   }
+  void require_exists(Index component) const {
+    if (component < 0 || component >= u_.size())
+      throw std::invalid_argument("linear constraint: there is no component " + std::to_string(component));
+  }
   static void require_component(const std::string& side, Index component) {
     if (component < 0 || component >= dim)
       throw std::invalid_argument("side \"" + side + "\": there is no component " + std::to_string(component));
@@ -336,10 +361,12 @@ class Scene {
   }
 
   BodiesType bodies_;
+  [[no_unique_address]] TermsOf<Model> terms_;
   [[no_unique_address]] typename System<Model>::Pairs pairs_;
   [[no_unique_address]] std::conditional_t<has_inertia<Model>, std::optional<InertiaForces<Model>>, NoInertiaForces>
       inertia_;
   std::vector<SideValue> driven_, loads_;
+  std::vector<LinearConstraint> constraints_;
   std::unique_ptr<System<Model>> system_;
   std::unique_ptr<Diagnosis<Model>> diagnosis_;
   Field u_, last_increment_, reactions_;

@@ -120,9 +120,9 @@ class InertiaTerm {
   /// Whether the matrix of the bodies has a weight of its own.
   static constexpr bool weighs_body = with_contact || damped;
 
-  /// `touches` says of every node whether it is one of a contact side.
+  /// `touches` says of every node whether it is one of a contact side; `components` is the length of fields.
   InertiaTerm(const Bodies<Model>& bodies, const Policy& policy, const Damping& damping,
-              const std::vector<bool>& touches)
+              const std::vector<bool>& touches, Index components)
       : policy_(policy), damping_(damping) {
     if constexpr (with_contact) contact_mass_.setZero(bodies.node_count());
     std::size_t k = 0;
@@ -131,7 +131,6 @@ class InertiaTerm {
       list.emplace_back(body, bodies.density(k++), policy.lumped);
       if constexpr (with_contact) list.back().lump(touches, contact_mass_);
     });
-    const Index components = bodies.node_count() * dim;
     for (Field* f : {&velocity_, &acceleration_, &start_, &old_forces_, &force_, &trial_acceleration_, &work_})
       f->setZero(components);
     if constexpr (damped) old_internal_.setZero(components);
@@ -215,7 +214,7 @@ class InertiaTerm {
     Field lumped = Field::Zero(work_.size());
     add_product(work_, lumped);
     for (Index c = 0; c < dofs.components(); ++c)
-      acceleration_[c] = dofs.equation(c) == IndexMap::constrained ? 0 : -old_forces_[c] / lumped[c];
+      acceleration_[c] = dofs.supported(c) || !(lumped[c] > 0) ? 0 : -old_forces_[c] / lumped[c];
   }
 
   /// target += M field.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/base/types.hpp>
+#include <stickslip/dofs/index_map.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -15,7 +15,7 @@ namespace stickslip {
 class Parts {
  public:
   template <class BodiesType>
-  explicit Parts(const BodiesType& bodies) : part_(static_cast<std::size_t>(bodies.node_count())) {
+  Parts(const BodiesType& bodies, const IndexMap& dofs) : part_(static_cast<std::size_t>(bodies.node_count())) {
     // Trees of nodes, each on its part's least one.
     std::iota(part_.begin(), part_.end(), 0);
     const auto root = [&](Index n) {
@@ -29,6 +29,14 @@ class Parts {
           part_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
         }
     });
+    // Linear constraints join the parts of their nodes.
+    const Index dim = BodiesType::dim, nodes = static_cast<Index>(part_.size());
+    for (const auto& d : dofs.dependents())
+      for (const auto& m : d.masters)
+        if (d.component / dim < nodes && m.index / dim < nodes) {
+          const Index a = root(d.component / dim), b = root(m.index / dim);
+          part_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        }
     for (Index n = 0; n < static_cast<Index>(part_.size()); ++n) {
       Index& part = part_[static_cast<std::size_t>(n)];
       part = part == n ? count_++ : at(part);  // that of an earlier node, numbered already
@@ -36,6 +44,8 @@ class Parts {
   }
 
   Index count() const { return count_; }
+  /// Number of nodes; the components behind theirs are no node's.
+  Index nodes() const { return static_cast<Index>(part_.size()); }
   /// The part of a node.
   Index at(Index node) const { return part_[static_cast<std::size_t>(node)]; }
 

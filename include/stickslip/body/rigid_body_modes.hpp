@@ -52,18 +52,21 @@ class RigidBodyModes {
       add(part(n).shift, at_node<dim>(u, n), 1 / Real(part(n).nodes));
     for (Index j = 0; j < matrix.size; ++j)
       for (Index s = matrix.column_start[j]; s < matrix.column_start[j + 1]; ++s) {
+        if (!is_nodal(dofs.component(j))) continue;
         Real& stiffness = part(dofs.component(j) / dim).stiffness;
         stiffness = std::max(stiffness, std::abs(matrix.values[s]));
       }
     for (Index c = 0; c < dofs.components(); ++c)
-      if (dofs.equation(c) == IndexMap::constrained) resist(part(c / dim), at(c), 1, at(c));
+      if (is_nodal(c) && dofs.supported(c)) resist(part(c / dim), at(c), 1, at(c));
     for (Index j = 0; j < matrix.size; ++j) {
       const Index b = dofs.component(j);
+      if (!is_nodal(b)) continue;
       const Components there = at(b);
       OfPart& of = part(b / dim);
       if (!(of.stiffness > 0)) continue;
       for (Index s = matrix.column_start[j]; s < matrix.column_start[j + 1]; ++s) {
         const Index a = dofs.component(matrix.row[s]);
+        if (!is_nodal(a)) continue;
         const Components here = at(a);
         resist(of, here, matrix.values[s] / of.stiffness, there);
         if (matrix.symmetry == Symmetry::symmetric && a != b) resist(of, there, matrix.values[s] / of.stiffness, here);
@@ -83,7 +86,7 @@ class RigidBodyModes {
     for (const Components& combination : null_space<count>(of.resistance, least)) {
       Field r = Field::Zero(u_.size());
       for (Index c = 0; c < r.size(); ++c) {
-        if (parts_.at(c / dim) != number) continue;
+        if (!is_nodal(c) || parts_.at(c / dim) != number) continue;
         const Components motions = at(c);
         for (std::size_t k = 0; k < motions.size(); ++k) r[c] += combination[k] * motions[k];
       }
@@ -94,6 +97,8 @@ class RigidBodyModes {
   }
 
  private:
+  // Components behind the nodes' are unknowns of terms, which no rigid motion moves.
+  bool is_nodal(Index c) const { return c < parts_.nodes() * dim; }
   // What each motion makes of a nodal component. Entry by entry, for it is the quickest to compile.
   using Components = std::array<Real, static_cast<std::size_t>(count)>;
   Components at(Index c) const {

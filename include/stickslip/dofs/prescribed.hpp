@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,12 +50,39 @@ class Prescribed {
     loads_.push_back({side.side, side.value, components(side, nodes), std::move(areas)});
   }
 
-  /// The unknowns that are left of so many components.
-  IndexMap unknowns_of(Index components) const {
+  /// Makes a component depend on others, u = sum of weight * u_master + offset(time); without a function the offset is
+  /// zero. Where a support prescribes the component, the support stands and the constraint is a fault: see
+  /// `unknowns_of`.
+  void constrain(IndexMap::Dependent dependent, std::function<Real(Real)> offset = {}) {
+    dependents_.push_back({std::move(dependent), std::move(offset)});
+  }
+
+  /// The unknowns that are left of so many components; with `assembled` the dependent ones among them, as forces and
+  /// stiffness are assembled before constraints are condensed. Throws std::invalid_argument where a dependent component
+  /// is prescribed, depends on a dependent one or does so twice.
+  IndexMap unknowns_of(Index components, bool assembled = false) const {
     std::vector<bool> constrained(static_cast<std::size_t>(components), false);
     for (const Values& d : driven_)
       for (const Index c : d.components) constrained[static_cast<std::size_t>(c)] = true;
-    return IndexMap(components, constrained);
+    if (assembled || dependents_.empty()) return IndexMap(components, constrained);
+    std::vector<bool> dependent(constrained.size(), false);
+    std::vector<IndexMap::Dependent> list;
+    for (const Linear& l : dependents_) {
+      const auto c = static_cast<std::size_t>(l.of.component);
+      if (constrained[c] || dependent[c])
+        throw std::invalid_argument("linear constraint: component " + std::to_string(l.of.component % dim_) +
+                                    " of node " + std::to_string(l.of.component / dim_) +
+                                    (dependent[c] ? " depends on others twice" : " has a support as well"));
+      dependent[c] = true;
+      list.push_back(l.of);
+    }
+    for (const Linear& l : dependents_)
+      for (const IndexMap::Weighted& m : l.of.masters)
+        if (dependent[static_cast<std::size_t>(m.index)])
+          throw std::invalid_argument("linear constraint: component " + std::to_string(m.index % dim_) + " of node " +
+                                      std::to_string(m.index / dim_) + " depends on others itself");
+    for (std::size_t c = 0; c < dependent.size(); ++c) constrained[c] = constrained[c] || dependent[c];
+    return IndexMap(components, constrained, std::move(list));
   }
 
   /// Sets the driven and held components of a nodal field to their values at `time`.
@@ -63,6 +91,12 @@ class Prescribed {
       const Real value = d.value ? d.value(time) : 0.0;
       if (!std::isfinite(value)) return not_finite(d);
       for (const Index c : d.components) u[c] = value;
+    }
+    for (const Linear& l : dependents_) {
+      Real value = l.offset ? l.offset(time) : 0;
+      for (const IndexMap::Weighted& m : l.of.masters) value += m.weight * u[m.index];
+      if (!std::isfinite(value)) return {FailureCause::not_finite, {Location::Kind::node, l.of.component / dim_}};
+      u[l.of.component] = value;
     }
     for (const Shared& s : shared_)
       if (contradicts(s, time))
@@ -98,6 +132,10 @@ class Prescribed {
     std::vector<Real> shares;  // of a load
   };
 
+  struct Linear {
+    IndexMap::Dependent of;
+    std::function<Real(Real)> offset;
+  };
   // A component that two supports prescribe, the first of those that they share.
   struct Shared {
     std::size_t one, other;
@@ -124,6 +162,7 @@ class Prescribed {
   std::vector<Values> driven_, loads_;
   std::map<Index, std::size_t> driven_by_;  // the first support of a component
   std::vector<Shared> shared_;
+  std::vector<Linear> dependents_;
 };
 
 }  // namespace stickslip

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace stickslip {
@@ -72,6 +73,10 @@ class SparseMatrix {
   /// The entry of an equation with itself.
   Real diagonal(Index equation) const { return values_[static_cast<std::size_t>(slot(equation, equation))]; }
 
+  /// Where the entry of two equations is stored, and an addition to it.
+  Index entry(Index row, Index column) const { return slot(row, column); }
+  void add(Index entry, Real value) { values_[static_cast<std::size_t>(entry)] += value; }
+
   void set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
 
   /// Adds a block; of a symmetric matrix its lower triangle is read.
@@ -81,6 +86,18 @@ class SparseMatrix {
     for (int b = 0; b < n; ++b)
       for (int a = storage == Symmetry::symmetric ? b : 0; a < n; ++a)
         values_[static_cast<std::size_t>(slots[k++])] += block(a, b);
+  }
+
+  /// Adds a block over any number of components, entry by entry: for stencils whose length is known as the program
+  /// runs. Of a symmetric matrix its lower triangle is taken.
+  template <class Block>
+  void add(const IndexMap& dofs, std::span<const Index> components, const Block& block) {
+    for (std::size_t b = 0; b < components.size(); ++b)
+      for (std::size_t a = 0; a < components.size(); ++a) {
+        const Index row = dofs.equation(components[a]), column = dofs.equation(components[b]);
+        if (storage == Symmetry::symmetric && row < column) continue;
+        values_[static_cast<std::size_t>(slot(row, column))] += block(static_cast<Index>(a), static_cast<Index>(b));
+      }
   }
 
   SparseView view() const {

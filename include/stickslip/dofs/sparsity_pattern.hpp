@@ -27,6 +27,9 @@ class SparsityPattern {
       }
   }
 
+  /// Couples two equations; of symmetric storage the row must not be above the column.
+  void couple_equations(Index row, Index column) { columns_[static_cast<std::size_t>(column)].push_back(row); }
+
   /// The pattern by columns, rows ascending: those of column j are row[column_start[j]] to row[column_start[j + 1]].
   void compress(std::vector<Index>& column_start, std::vector<Index>& row) {
     column_start.assign(1, 0);

@@ -10,6 +10,8 @@
 #include <stickslip/policy/material.hpp>
 #include <stickslip/policy/time_integration.hpp>
 
+#include <tuple>
+
 namespace stickslip {
 
 /// The types of bodies of a model with several: `using Bodies = BodyTypes<Blank, Die>;`, each type with an Element and
@@ -59,6 +61,40 @@ using BodyTypesOf = typename detail::BodyTypesIn<Model>::type;
 /// Symmetry of the bodies: the widest over their materials.
 template <class Model>
 inline constexpr Symmetry bodies_symmetry = detail::material_symmetry(BodyTypesOf<Model>{});
+
+/// The types of a user's own terms in the balance: `using Terms = TermTypes<Mine>;` (dofs/term.hpp).
+template <class... Types>
+struct TermTypes {};
+
+namespace detail {
+template <class Model>
+struct TermTypesIn {
+  using type = TermTypes<>;
+};
+template <class Model>
+  requires requires {
+    typename Model::Terms;
+  }
+struct TermTypesIn<Model> {
+  using type = typename Model::Terms;
+};
+template <class List>
+struct TermTuple;
+template <class... Types>
+struct TermTuple<TermTypes<Types...>> {
+  using type = std::tuple<Types...>;
+};
+template <class... Types>
+constexpr Symmetry terms_symmetry(TermTypes<Types...>) {
+  Symmetry s = Symmetry::symmetric;
+  ((s = widest(s, Types::symmetry)), ...);
+  return s;
+}
+}  // namespace detail
+
+/// The terms of a model, a tuple: empty where it names none.
+template <class Model>
+using TermsOf = typename detail::TermTuple<typename detail::TermTypesIn<Model>::type>::type;
 
 /// True when the model has contact at all.
 template <class Model>
@@ -143,7 +179,15 @@ constexpr Symmetry contact_symmetry() {
 
 /// Symmetry of the whole system: the widest over all policies.
 template <class Model>
-inline constexpr Symmetry system_symmetry = widest(bodies_symmetry<Model>, contact_symmetry<Model>());
+inline constexpr Symmetry system_symmetry =
+    widest(widest(bodies_symmetry<Model>, detail::terms_symmetry(typename detail::TermTypesIn<Model>::type{})),
+           contact_symmetry<Model>());
+
+/// Symmetry of all but friction.
+template <class Model>
+inline constexpr Symmetry smooth_symmetry =
+    widest(widest(bodies_symmetry<Model>, detail::terms_symmetry(typename detail::TermTypesIn<Model>::type{})),
+           enforcement_symmetry<Model>());
 
 namespace detail {
 template <class Solver, Symmetry system>
@@ -169,8 +213,7 @@ using SolverParametersOf = SolverParameters<SolverOf<Model>>;
 /// cannot.
 template <class Model>
 inline constexpr Symmetry matrix_storage = (accepts_couplings<SolverOf<Model>> &&
-                                            widest(bodies_symmetry<Model>, enforcement_symmetry<Model>()) ==
-                                                Symmetry::symmetric)
+                                            smooth_symmetry<Model> == Symmetry::symmetric)
                                                ? SolverOf<Model>::storage
                                                : widest(system_symmetry<Model>, SolverOf<Model>::storage);
 
@@ -240,19 +283,21 @@ struct ToolNameOf<Model> {
 /// A model but for its solver, of which only the storage of the matrix is left: what the body, the contacts and the
 /// balance are made of. Models that differ in the solver alone share it, and the compiler's work with it.
 template <class Kinematics_, class Bodies_, class Friction_, class Enforcement_, class Inertia_, class Damping_,
-          class Tool_, Symmetry storage>
+          class Tool_, class Terms_, Symmetry storage>
 struct Mechanics : detail::NamedTool<Tool_>, detail::BodiesOfMechanics<Bodies_> {
   using Kinematics = Kinematics_;
   using Friction = Friction_;
   using Enforcement = Enforcement_;
   using TimeIntegration = Inertia_;
   using Damping = Damping_;
+  using Terms = Terms_;
   using LinearSolver = detail::StorageOnly<storage>;
 };
 template <class Model>
 using MechanicsOf = Mechanics<typename Model::Kinematics, typename detail::BodiesIn<Model>::type,
                               typename Model::Friction, typename Model::Enforcement, typename Model::TimeIntegration,
-                              DampingOf<Model>, typename detail::ToolNameOf<Model>::type, matrix_storage<Model>>;
+                              DampingOf<Model>, typename detail::ToolNameOf<Model>::type,
+                              typename detail::TermTypesIn<Model>::type, matrix_storage<Model>>;
 
 /// The rules of a model, a concept each. A rule that combines policies holds while one of them breaks its own
 /// contract: one mistake gives one sentence.
@@ -294,7 +339,7 @@ concept SolverAcceptsSystem =
     SolverOf<Model>::accepts == Symmetry::general;
 template <class Model>
 concept CorrectsCouplings = !HasSymmetry<Model> || !LinearSolver<Model> || !accepts_couplings<SolverOf<Model>> ||
-                            widest(bodies_symmetry<Model>, enforcement_symmetry<Model>()) == Symmetry::symmetric;
+                            smooth_symmetry<Model> == Symmetry::symmetric;
 }  // namespace rule
 
 /// True for a model that meets every rule.

@@ -50,13 +50,12 @@ class Diagnosis {
   static constexpr int dim = Model::Kinematics::dim;
 
   explicit Diagnosis(System<Model>& system)
-      : system_(system), parts_(system.bodies()), modes_(system.bodies().positions(), parts_) {
+      : system_(system), parts_(system.bodies(), system.dofs()), modes_(system.bodies().positions(), parts_) {
     constexpr Index first = Model::Kinematics::hoop ? dim - 1 : 0;  // in axisymmetry the shift along the axis alone
     const IndexMap& dofs = system.dofs();
     std::vector<bool> held(static_cast<std::size_t>(parts_.count() * dim), false);
-    for (Index c = 0; c < dofs.components(); ++c)
-      if (dofs.equation(c) == IndexMap::constrained)
-        held[static_cast<std::size_t>(parts_.at(c / dim) * dim + c % dim)] = true;
+    for (Index c = 0; c < parts_.nodes() * dim; ++c)
+      if (dofs.supported(c)) held[static_cast<std::size_t>(parts_.at(c / dim) * dim + c % dim)] = true;
     for (Index part = 0; part < parts_.count(); ++part)
       for (Index i = first; i < dim; ++i)
         if (!held[static_cast<std::size_t>(part * dim + i)]) {
@@ -76,7 +75,7 @@ class Diagnosis {
       if (!moved) return part;
       Real share = 0, whole = 0;
       for (const Field& r : free) share = std::hypot(share, r.dot(*moved));
-      for (Index c = 0; c < moved->size(); ++c)
+      for (Index c = 0; c < parts_.nodes() * dim; ++c)
         if (parts_.at(c / dim) == part) whole = std::hypot(whole, (*moved)[c]);
       if (share > 1e-6 * whole) return part;
     }

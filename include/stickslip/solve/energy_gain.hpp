@@ -105,7 +105,7 @@ class EnergyGain {
     Real residual_work = 0;
     reaction = system.forces().reaction;
     for (Index c = 0; c < reaction.size(); ++c) {
-      if (system.dofs().equation(c) == IndexMap::constrained) continue;
+      if (system.dofs().supported(c)) continue;
       residual_work += du[c] * std::exchange(reaction[c], 0.0);
     }
     residual_work = space.sum(residual_work);

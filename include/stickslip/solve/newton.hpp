@@ -141,6 +141,11 @@ class Newton {
       ++report.iterations;
       change_.setZero();
       system.dofs().scatter_add(-1, step_, change_);
+      // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
+      if (system.space().max(nodal_max(system, change_)) > 1e6 * system.bodies().extent()) {
+        report.failure = {FailureCause::singular_matrix, {}};
+        return report;
+      }
       if (driven) change_ += *driven;
       iterate.predict(change_);
 
@@ -246,6 +251,12 @@ class Newton {
            space.norm(system.forces().internal) <= roundoff;
   }
 
+  // Largest magnitude of the nodal components of a field: unknowns of terms, behind them, have units of their own.
+  template <class System>
+  static Real nodal_max(System& system, const Field& field) {
+    return field.head(system.bodies().node_count() * System::dim).template lpNorm<Eigen::Infinity>();
+  }
+
   // step_ = K^-1 R.
   template <class System>
   Failure direction(System& system, NewtonReport& report) {
@@ -273,8 +284,6 @@ class Newton {
     counts.corrections += corrections_so_far() - corrections;
     const Space& space = system.space();
     if (!solved || !std::isfinite(space.norm(step_))) return {FailureCause::singular_matrix, {}};
-    // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
-    if (space.max(step_) > 1e6 * system.bodies().extent()) return {FailureCause::singular_matrix, {}};
     return {};
   }
 
@@ -315,9 +324,10 @@ class Newton {
         z = step_;
       else if (!substitute(system, krylov.next(), z))
         return {FailureCause::singular_matrix, {}};
-      const Real part = length * system.bodies().extent() / space.max(z);
       change_.setZero();
-      system.dofs().scatter_add(-part, z, change_);  // the way the step goes: there may be a kink
+      system.dofs().scatter_add(-1, z, change_);  // the way the step goes: there may be a kink
+      const Real part = length * system.bodies().extent() / space.max(nodal_max(system, change_));
+      change_ *= part;
       iterate.predict(change_, 0);
       u = start_ + change_;
       iterate.set_step(1);

@@ -5,13 +5,18 @@
 #include <stickslip/body/bodies.hpp>
 #include <stickslip/body/inertia_forces.hpp>
 #include <stickslip/contact/contact_pair.hpp>
+#include <stickslip/dofs/linear_constraint.hpp>
 #include <stickslip/dofs/prescribed.hpp>
+#include <stickslip/dofs/term.hpp>
 #include <stickslip/solve/timings.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <stdexcept>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -35,6 +40,12 @@ struct NodalForces {
   }
 };
 
+/// A linear constraint between components: u_dependent = sum of weight * u_master + offset(time).
+struct LinearConstraint {
+  IndexMap::Dependent dependent;
+  std::function<Real(Real)> offset{};  ///< [length]; none: zero
+};
+
 /// The discrete balance of a scene: residual and tangent as a function of the nodal displacements (theory.md, eq. 1.1),
 /// the sum of its terms: bodies, contact pairs and inertia. What a model does not have is an empty term.
 template <class Model>
@@ -53,27 +64,28 @@ class System {
 
   /// `revision` tells systems of one scene apart, for those who keep what they made of its pattern.
   System(BodiesType& bodies, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
-         const std::vector<SideValue>& loads, Index revision = 1)
+         const std::vector<SideValue>& loads, Index revision = 1, TermsOf<Model>* terms = nullptr,
+         const std::vector<LinearConstraint>& constraints = {})
       : bodies_(bodies),
         pairs_(pairs),
         inertia_(inertia),
+        terms_(terms),
         prescribed_(dim, bodies.extent()),
         pattern_revision_(revision) {
     for (const SideValue& d : driven) prescribed_.drive(d, bodies.side_nodes(d.side));
     for (const SideValue& l : loads) prescribed_.load(l, bodies.side_nodes(l.side), bodies.side_areas(l.side));
-    const Index components = bodies.node_count() * dim;
+    Index components = bodies.node_count() * dim;
+    for_each_term([&](const auto& term) { components += term.unknowns(); });
+    for (const auto& [dependent, offset] : constraints) prescribed_.constrain(dependent, offset);
     dofs_ = prescribed_.unknowns_of(components);
-    SparsityPattern pattern(dofs_, matrix_storage<Model>);
-    bodies_.couple(pattern);
-    matrix_ = Matrix(pattern);
-    bodies_.connect(dofs_, matrix_);
-    std::size_t nodes = 0;
-    for_each_contact(pairs_, [&](auto& pair) {
-      pair.connect(dofs_, matrix_);
-      nodes += pair.nodes().size();
-    });
-    couplings_.reserve(nodes);
-    inertia_.connect(matrix_);
+    if (condenses()) {
+      assembled_ = prescribed_.unknowns_of(components, true);
+      if constexpr (stores_couplings<Model>)
+        throw std::invalid_argument(
+            "linear constraint: a solver that corrects a symmetric factor for sliding nodes takes none; take a general "
+            "solver");
+    }
+    connect();
     for (Field* f : {&forces_.internal, &forces_.contact, &forces_.external, &forces_.balance, &forces_.reaction,
                      &constraint_force_})
       f->setZero(components);
@@ -86,6 +98,7 @@ class System {
   const Space& space() const { return space_; }
   /// The tangent of the last evaluation that was asked for one.
   SparseView matrix() const {
+    if (condenses()) return condensed_.view();
     SparseView view = matrix_.view();
     view.corrections = couplings_.view();
     return view;
@@ -100,6 +113,15 @@ class System {
   Pairs& pairs() { return pairs_; }
   const Pairs& pairs() const { return pairs_; }
 
+  /// Prepares an attempt at a step from the converged displacements u at `time`: where a term's stencils have changed,
+  /// the pattern is made anew.
+  void update(const Field& u, Real time) {
+    bool changed = false;
+    for_each_term([&](auto& term) { changed = term.update(u, time) || changed; });
+    if (!changed) return;
+    ++pattern_revision_;
+    connect();
+  }
   /// Takes the displacements u at `time` for a start: positions on the tools, penalties in parts of the body's
   /// stiffness, and accelerations that balance the forces. Throws std::invalid_argument where contacts cannot start.
   Failure start(const Field& u, Real time) {
@@ -123,7 +145,8 @@ class System {
   /// Bound of the residual that round-off alone leaves: the largest stiffness of the body and of sticking times the
   /// extent of the coordinates (theory.md, eq. 6.3).
   Real roundoff(const Field& u) const {
-    const Real moved = space_.max(u), extent = bodies_.extent();
+    const Real moved = space_.max(u.head(bodies_.node_count() * dim).template lpNorm<Eigen::Infinity>()),
+               extent = bodies_.extent();
     Real force = stiffness_ * (exact_strains && !has_contact<Model> ? moved : moved + extent);
     if (has_contact<Model>) force += stick_stiffness_ * (moved + extent);
     return 16 * std::numeric_limits<Real>::epsilon() * force * std::sqrt(space_.sum(Real(dofs_.unknowns())));
@@ -152,14 +175,41 @@ class System {
     forces_.reaction = forces_.balance;
     if (const Real share = inertia_.contact_share() - 1; share != 0)  // a support takes the force of contact itself
       for (Index c = 0; c < dofs_.components(); ++c)
-        if (dofs_.equation(c) == IndexMap::constrained) forces_.reaction[c] -= share * forces_.contact[c];
+        if (dofs_.supported(c)) forces_.reaction[c] -= share * forces_.contact[c];
     bodies_.commit();
+    for_each_term([](auto& term) { term.commit(); });
     for_each_contact(pairs_, [](auto& pair) { pair.commit(); });
   }
 
   Timings timings;
 
  private:
+  // Makes the pattern, and the terms' maps into it.
+  void connect() {
+    const IndexMap& dofs = assembled();
+    SparsityPattern pattern(dofs, matrix_storage<Model>);
+    bodies_.couple(pattern);
+    for_each_term([&](const auto& term) { term.couple(pattern); });
+    matrix_ = Matrix(pattern);
+    bodies_.connect(dofs, matrix_);
+    std::size_t nodes = 0;
+    for_each_contact(pairs_, [&](auto& pair) {
+      pair.connect(dofs, matrix_);
+      nodes += pair.nodes().size();
+    });
+    couplings_.reserve(nodes);
+    inertia_.connect(matrix_);
+    if (condenses()) condensed_.build(matrix_.view(), dofs, dofs_);
+  }
+  // The numbering in which forces and stiffness are assembled: that of the unknowns, unless linear constraints are
+  // condensed.
+  bool condenses() const { return !dofs_.dependents().empty(); }
+  const IndexMap& assembled() const { return condenses() ? assembled_ : dofs_; }
+  template <class Visit>
+  void for_each_term(Visit&& visit) const {
+    if constexpr (std::tuple_size_v < TermsOf < Model >>> 0)
+      std::apply([&](auto&... terms) { (visit(terms), ...); }, *terms_);
+  }
   using Couplings = std::conditional_t<stores_couplings<Model>, NodeCouplings<dim>, NoNodeCouplings>;
   using EvaluationType = Evaluation<Matrix, Couplings>;
 
@@ -174,7 +224,7 @@ class System {
     if (!needed) return {};
     if (const Failure f = evaluate_body(u)) return f;
     for_each_contact(pairs_, [&](auto& pair) {
-      if (needs(pair)) pair.compute_penalties(dofs_, matrix_);
+      if (needs(pair)) pair.compute_penalties(assembled(), matrix_);
     });
     return {};
   }
@@ -201,6 +251,7 @@ class System {
     dofs_.gather(forces_.balance, forces_.residual);
     forces_.norm = space_.norm(forces_.residual);
     if (!std::isfinite(forces_.norm)) return {FailureCause::not_finite, {}};
+    if (ev.want != Want::residual && condenses()) condensed_.condense(matrix_.view());
     has_tangent_ = ev.want != Want::residual;
     evaluated_ = true;
     return {};
@@ -220,6 +271,11 @@ class System {
       const Stopwatch watch(timings.assembly);
       if (const Failure f = bodies_.evaluate(ev, forces_.internal)) return f;
       if (with_tangent && !measured_) measure_stiffness();
+      Failure failure;
+      for_each_term([&](auto& term) {
+        if (!failure) failure = term.evaluate(ev, assembled(), forces_.internal);
+      });
+      if (failure) return failure;
       if constexpr (weighs_body)
         if (ev.dt > 0) {
           if (with_tangent) matrix_.scale(inertia_.body_share());
@@ -262,9 +318,12 @@ class System {
   BodiesType& bodies_;
   Pairs& pairs_;
   Inertia& inertia_;
+  TermsOf<Model>* terms_;  // null where there are none
   [[no_unique_address]] Space space_{};
   IndexMap dofs_;
+  IndexMap assembled_;  // with linear constraints
   Matrix matrix_;
+  CondensedMatrix<matrix_storage<Model>> condensed_;
   [[no_unique_address]] Couplings couplings_;
   Prescribed prescribed_;
   NodalForces forces_;
@@ -292,6 +351,7 @@ class System<Model>::Iterate {
   void restart() {
     system_.measured_ = system_.with_mass_ = system_.plain_ = false;
     system_.bodies_.begin_iteration();
+    system_.for_each_term([](auto& term) { term.begin_iteration(); });
     for_each_contact(system_.pairs_, [](auto& pair) { pair.begin_iteration(); });
   }
   /// The same, with nodes linearised as sticking that the last try has lost; with all of them where `sticking`.
@@ -319,11 +379,13 @@ class System<Model>::Iterate {
   /// residuals closed.
   void predict(const Field& du, Real fraction = 1) {
     system_.bodies_.predict(du, fraction);
+    system_.for_each_term([&](auto& term) { term.predict(du, fraction); });
     for_each_contact(system_.pairs_, [&](auto& pair) { pair.predict(du, fraction); });
   }
   /// Takes a part of the change of the last `predict`.
   void set_step(Real length) {
     system_.bodies_.set_step(length);
+    system_.for_each_term([&](auto& term) { term.set_step(length); });
     for_each_contact(system_.pairs_, [&](auto& pair) { pair.set_step(length); });
   }
   /// Keeps the multipliers and bounds that were reached; the state is to be committed.
@@ -341,6 +403,7 @@ class System<Model>::Iterate {
     s.open_ = s.forces_.residual - share * s.open_;
     const Real imbalance = s.space_.norm(s.open_);
     Real constraints = s.bodies_.constraint_merit();
+    s.for_each_term([&](const auto& term) { constraints += term.constraint_merit(); });
     if constexpr (weighs_body) constraints *= std::pow(s.inertia_.body_share(), 2);
     for_each_contact(s.pairs_, [&](const auto& pair) { constraints += pair.constraint_merit(); });
     constraints = s.space_.sum(constraints);
