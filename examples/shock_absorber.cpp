@@ -51,7 +51,7 @@ int invert(const examples::Options& options) {
   Problem<Model> absorber{{
       .body = tube,
       .material = {.young = 67000, .poisson = 0.33, .hardening = {.yield = 15 * scale, .modulus = 44.7 * scale}},
-      .time_integration = {.density = 2.7e-9, .scheme = chung_hulbert(p.at("spectral-radius"))},
+      .density = 2.7e-9, .time_integration = {.scheme = chung_hulbert(p.at("spectral-radius"))},
       .contacts = {on_die},
   }};
   absorber.drive("top", 1, [](Real t) { return -speed * t; });
@@ -78,12 +78,12 @@ int invert(const examples::Options& options) {
 
 int main(int argc, char** argv) {
   constexpr auto frictions = examples::coulomb_laws;
-  constexpr auto solvers = examples::all_solvers;
+  using examples::AllSolvers;
   const examples::Program program{
       .name = "shock_absorber",
       .title = "a tube turned inside out by a die, in implicit dynamics",
       .frictions = frictions.list(),
-      .solvers = solvers.list(),
+      .solvers = AllSolvers::solvers().names(),
       .mu = 0.15,
       .tolerance = 1e-2,
       .parameters = {
@@ -102,8 +102,8 @@ int main(int argc, char** argv) {
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;
-    if (options->list) return examples::print_list<Tube>(frictions, solvers);
-    return examples::dispatch<Tube>(*options, frictions, solvers,
-                                    [&]<class Model>() { return invert<Model>(*options); });
+    if (options->list) return examples::print_list<Tube, AllSolvers>(frictions);
+    return examples::dispatch<Tube, AllSolvers>(*options, frictions,
+                                                [&]<class Model>() { return invert<Model>(*options); });
   });
 }

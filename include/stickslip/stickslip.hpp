@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-/// Everything that needs Eigen alone, but for three parts to include where you use them (tests/structure/umbrella.py):
+/// Everything that needs Eigen alone, but for four parts to include where you use them (tests/structure/umbrella.py):
 /// - io/, which reads and writes files;
+/// - run_time.hpp, for programs that offer models and solvers by name;
 /// - linear_solver/eigen_iterative.hpp, whose Eigen headers would cost each program a second to compile, of twelve of
 ///   README.md's;
 /// - what needs another library: linear_solver/cholmod.hpp, linear_solver/umfpack.hpp, linear_solver/mumps.hpp,
@@ -62,6 +63,12 @@ struct QuasistaticDefaults {
   using Enforcement = Penalty;
   using TimeIntegration = Quasistatic;
   using LinearSolver = EigenDirect;
+};
+
+/// Defaults of a type of bodies (BodyTypes); derive and override.
+struct BodyDefaults {
+  using Element = MeanDilatation<Quad4>;
+  using Material = Hencky;
 };
 
 }  // namespace stickslip

@@ -118,7 +118,7 @@ TEST_CASE("a corrected run with inertia, which scales the couplings, is that of 
   const auto run = []<class M>(M) {
     Problem<M> block{{.body = mesh::rectangle({.size = {10, 5}, .cells = {8, 4}}),
                       .material = material<Hencky>(),
-                      .time_integration = {.density = 2.7e-9},
+                      .density = 2.7e-9,
                       .contacts = {{.side = "bottom",
                                     .tool = rigid::line({0, 0}, {1, 0}),
                                     .friction = {.mu = 0.4},

@@ -74,7 +74,7 @@ std::unique_ptr<Problem<M>> bar(const TimeScheme& scheme, Real normal, bool wall
   auto problem = std::make_unique<Problem<M>>(
       typename Problem<M>::Parameters{.body = mesh::rectangle({.size = {1, length}, .cells = {2, 50}}),
                                       .material = {.young = 1e4, .poisson = 0},
-                                      .time_integration = {.density = 1e-2, .scheme = scheme},
+                                      .density = 1e-2, .time_integration = {.scheme = scheme},
                                       .contacts = {{.side = "bottom",
                                                     .tool = rigid::line({0, -gap}, {1, 0}),
                                                     .motion = [=](Real t) { return V(0, wall_moves ? t : 0); },
@@ -153,7 +153,7 @@ TEST_CASE("under a smooth pressure displacements converge at second order and fo
   const auto pressed = [](Index steps) {
     Problem<Smooth> p{{.body = mesh::rectangle({.size = {1, length}, .cells = {1, 20}}),
                        .material = {.young = 1e4, .poisson = 0},
-                       .time_integration = {.density = 1e-2},
+                       .density = 1e-2,
                        .contacts = {{.side = "bottom",
                                      .tool = rigid::line({0, 0}, {1, 0}),
                                      .enforcement = stiff<Smooth>(1e4),
@@ -173,7 +173,7 @@ TEST_CASE("under a smooth pressure displacements converge at second order and fo
 TEST_CASE("a node pulled off the tool separates in the same step") {
   Problem<Smooth> block{{.body = mesh::rectangle({.cells = {1, 1}}),
                          .material = {.young = 1e4, .poisson = 0},
-                         .time_integration = {.density = 1},
+                         .density = 1,
                          .contacts = {{.side = "bottom",
                                        .tool = rigid::line({0, 0}, {1, 0}),
                                        .enforcement = stiff<Smooth>(100),
@@ -191,7 +191,7 @@ TEST_CASE("a reaction contains the contact force at its nodes once") {
   Problem<Smooth> block{
       {.body = mesh::rectangle({.cells = {2, 2}}),
        .material = {.young = 1e3, .poisson = 0},
-       .time_integration = {.density = 1},
+       .density = 1,
        .contacts = {
            {.side = "bottom", .tool = rigid::line({0, 0}, {1, 0}), .enforcement = {.normal = 100}, .name = "wall"}}}};
   for (const char* side : {"bottom", "top"}) block.drive(side, 1, [](Real t) { return -t; });
@@ -216,7 +216,7 @@ std::unique_ptr<Problem<Damped>> plated(const V& centre, const rigid::Tool<2>& p
   return std::make_unique<Problem<Damped>>(Problem<Damped>::Parameters{
       .body = mesh::rectangle({.origin = centre - V(0.5, 0.5), .size = {1, 1}, .cells = {1, 1}}),
       .material = {.young = 1e4, .poisson = 0.3},
-      .time_integration = {.density = 1},
+      .density = 1,
       .damping = {.tau = 1e-2},
       .contacts = {{.side = side,
                     .tool = plate,
@@ -279,7 +279,7 @@ TEST_CASE("stiffness damping has the ratio tau omega / 2, and its work is in the
   Problem<Damped> rod{
       {.body = mesh::rectangle({.size = {1, length}, .cells = {1, 20}}),
        .material = {.young = 1e4, .poisson = 0},
-       .time_integration = {.density = 1e-2, .scheme = newmark()},
+       .density = 1e-2, .time_integration = {.scheme = newmark()},
        .damping = {.tau = 2e-4},
        .contacts = {
            {.side = "top", .tool = rigid::line({0, 20}, {-1, 0}), .enforcement = {.normal = 1, .tangential = 1}}}}};
@@ -302,7 +302,7 @@ std::unique_ptr<Problem<Damped>> slider(Real tau, Real mu, const TimeScheme& sch
   auto block = std::make_unique<Problem<Damped>>(Problem<Damped>::Parameters{
       .body = mesh::rectangle({.size = {1, 0.5}, .cells = {8, 4}}),
       .material = {.young = 1e7, .poisson = 0.3},
-      .time_integration = {.density = 1000, .scheme = scheme},
+      .density = 1000, .time_integration = {.scheme = scheme},
       .damping = {.tau = tau},
       .contacts = {{.side = "bottom",
                     .tool = rigid::line({0, 0}, {1, 0}),
@@ -413,7 +413,7 @@ TEST_CASE("energy gained by the scheme warns, and ends the run on request") {
     Problem<Smooth> block{
         {.body = mesh::rectangle({.size = {1, 2}, .cells = {1, 2}}),
          .material = {.young = 100, .poisson = 0.3},
-         .time_integration = {.density = 1, .scheme = newmark()},
+         .density = 1, .time_integration = {.scheme = newmark()},
          .contacts = {{.side = "top", .tool = rigid::line({0, 20}, {-1, 0}), .enforcement = {.normal = 1}}}}};
     block.hold("bottom", 0).hold("bottom", 1);
     block.start_velocity([](const V& x) { return V(2.5 * x[1], 0); });
@@ -440,7 +440,7 @@ TEST_CASE("energy gained by the scheme warns, and ends the run on request") {
   CHECK(outcome.message().find(coarse[0].text) != std::string::npos);
   CHECK(refused.size() == 1);
   Problem<Smooth> any{
-      {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .time_integration = {.density = 1}}};
+      {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .density = 1}};
   CHECK_THROWS_WITH_AS((void)any.march({.energy_gain = -1}), "march: the energy gain must not be negative",
                        std::invalid_argument);
 }
@@ -448,7 +448,7 @@ TEST_CASE("energy gained by the scheme warns, and ends the run on request") {
 TEST_CASE("a damping without a time constant is refused by name") {
   CHECK_THROWS_WITH_AS(
       (Problem<Damped>{
-          {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .time_integration = {.density = 1}}}),
+          {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .density = 1}}),
       "stiffness damping: the time constant tau must be positive", std::invalid_argument);
 }
 

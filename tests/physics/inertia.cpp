@@ -58,7 +58,7 @@ const Hencky rubber{.young = 100, .poisson = 0.3};
 Field swayed(const TimeScheme& scheme, Index steps, bool lumped = false) {
   Problem<Flying> block{{.body = mesh::rectangle({.size = {1, 2}, .cells = {2, 4}}),
                          .material = rubber,
-                         .time_integration = {.density = 1, .scheme = scheme, .lumped = lumped}}};
+                         .density = 1, .time_integration = {.scheme = scheme, .lumped = lumped}}};
   block.hold("bottom", 0).hold("bottom", 1);
   block.start_velocity([](const Vec<Real, 2>& X) { return Vec<Real, 2>(2.5 * X[1], 0); });
   auto march = block.march({.end = 0.5, .steps = steps, .tolerance = 1e-10});
@@ -92,7 +92,7 @@ TEST_CASE("consistent and lumped mass have the same total and differ by the mesh
     Problem<Flying> block{{.body = mesh::rectangle({.size = {1, 2}, .cells = {3, 5}}),
                            .kinematics = {.thickness = 0.7},
                            .material = rubber,
-                           .time_integration = {.density = 3, .lumped = lumped}}};
+                           .density = 3, .time_integration = {.lumped = lumped}}};
     block.start_velocity({4, 0});
     CHECK(block.inertia().kinetic_energy() == doctest::Approx(0.5 * 3 * 2 * 0.7 * 16).epsilon(1e-13));
   }
@@ -104,7 +104,7 @@ TEST_CASE("consistent and lumped mass have the same total and differ by the mesh
 
 TEST_CASE("a body in free flight keeps its momentum and takes no strain") {
   Problem<Flying> block{
-      {.body = mesh::rectangle({.cells = {3, 3}}), .material = rubber, .time_integration = {.density = 2}}};
+      {.body = mesh::rectangle({.cells = {3, 3}}), .material = rubber, .density = 2}};
   block.start_velocity({3, -1});
   auto march = block.march({.end = 100, .steps = 50});
   verify::EnergyBalance<Flying> ledger(block);
@@ -119,7 +119,7 @@ TEST_CASE("a body in free flight keeps its momentum and takes no strain") {
 TEST_CASE("a rigid rotation continues without strain") {
   Problem<Flying> block{{.body = mesh::rectangle({.origin = {-0.5, -0.5}, .cells = {2, 2}}),
                          .material = {.young = 1e6, .poisson = 0.3},
-                         .time_integration = {.density = 1, .scheme = chung_hulbert(0.5)}}};
+                         .density = 1, .time_integration = {.scheme = chung_hulbert(0.5)}}};
   block.start_velocity([](const Vec<Real, 2>& X) { return Vec<Real, 2>(-X[1], X[0]); });
   const auto angular_momentum = [&] {
     Field momentum = Field::Zero(block.displacement().size());
@@ -151,7 +151,7 @@ TEST_CASE("the energy balance closes when an elastic block rebounds from a rigid
     Problem<Landing> block{
         {.body = mesh::rectangle({.cells = {3, 3}}),
          .material = {.young = 1000, .poisson = 0.3},
-         .time_integration = {.density = 1, .scheme = chung_hulbert(radius)},
+         .density = 1, .time_integration = {.scheme = chung_hulbert(radius)},
          .contacts = {{.side = "bottom", .tool = rigid::line({0, -0.05}, {1, 0}), .enforcement = {.normal = 2e3}}}}};
     block.start_velocity({0, -1});
     auto march = block.march({.end = 0.4, .steps = 1600, .tolerance = 1e-11});
@@ -179,7 +179,7 @@ TEST_CASE("the energy balance closes when an elastic block rebounds from a rigid
 TEST_CASE("the energy balance closes when a plastic block slides over a rough floor") {
   Problem<Skidding> block{{.body = mesh::rectangle({.cells = {3, 3}}),
                            .material = {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 50}},
-                           .time_integration = {.density = 1},
+                           .density = 1,
                            .contacts = {{.side = "bottom",
                                          .tool = rigid::line({0, -0.01}, {1, 0}),
                                          .friction = {.mu = 0.3},
@@ -208,7 +208,7 @@ TEST_CASE("steps keep the local error below its tolerance, and the error of the 
   for (const Real tolerance : {1e-3, 1e-4, 1e-5}) {
     Problem<Flying> block{{.body = mesh::rectangle({.size = {1, 2}, .cells = {2, 4}}),
                            .material = rubber,
-                           .time_integration = {.density = 1, .scheme = chung_hulbert(0.5)}}};
+                           .density = 1, .time_integration = {.scheme = chung_hulbert(0.5)}}};
     block.hold("bottom", 0).hold("bottom", 1);
     block.start_velocity([](const Vec<Real, 2>& X) { return Vec<Real, 2>(2.5 * X[1], 0); });
     auto march = block.march({.end = 0.5, .initial = 1e-4, .tolerance = 1e-10, .time_tolerance = tolerance});
@@ -226,7 +226,7 @@ TEST_CASE("steps keep the local error below its tolerance, and the error of the 
 TEST_CASE("an imposed velocity with a consistent start causes no wave") {
   Problem<Flying> bar{{.body = mesh::rectangle({.size = {1, 5}, .cells = {1, 10}}),
                        .material = rubber,
-                       .time_integration = {.density = 1}}};
+                       .density = 1}};
   bar.drive("top", 1, [](Real t) { return -2 * t; }).start_velocity({0, -2});
   auto march = bar.march({.end = 1, .steps = 20});
   for ([[maybe_unused]] const StepReport& step : march) CHECK(std::abs(bar.reaction("top", 1)) < 1e-9);
@@ -237,7 +237,7 @@ TEST_CASE("a start velocity acts before the first step and is refused after it")
   const auto bar = [] {
     return Problem<Flying>{{.body = mesh::rectangle({.size = {1, 5}, .cells = {1, 10}}),
                             .material = rubber,
-                            .time_integration = {.density = 1}}};
+                            .density = 1}};
   };
   auto before = bar(), begun = bar();
   before.start_velocity({0, -2});

@@ -47,14 +47,14 @@ TEST_CASE("contact forces of a body and tool that rotate together only rotate") 
   const Real turn = 2.3;
   const V centre(3, -1);
   const auto pose = [&](Real t) { return t <= 1 ? rigid::turned(0, centre) : rigid::turned(turn, centre); };
-  Body<M> body(mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}), {}, material<FiniteJ2<LinearHardening>>());
+  Bodies<M> body(mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}), {}, material<FiniteJ2<LinearHardening>>());
   ContactPairs<M> pairs;
   pairs.emplace_back(Contact<M>{.side = "bottom",
                                 .tool = rigid::disc({1, -3}, 3),
                                 .motion = pose,
                                 .friction = {.mu = 0.3},
                                 .enforcement = {.normal = 1e4, .tangential = 1e3}},
-                     body.mesh(), body.kinematics());
+                     body);
   typename System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {}, {});
   Field u = Field::Zero(system.dofs().components());
@@ -109,14 +109,14 @@ TEST_CASE("contact forces of a body and tool that rotate together about a skew a
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) turning.rotation(i, j) = R(i, j);
   turning.translation = W(3, -1, 2);
-  Body<M> body(mesh::box({.size = {2, 1, 1}, .cells = {4, 2, 2}}), {}, material<FiniteJ2<LinearHardening>>());
+  Bodies<M> body(mesh::box({.size = {2, 1, 1}, .cells = {4, 2, 2}}), {}, material<FiniteJ2<LinearHardening>>());
   ContactPairs<M> pairs;
   pairs.emplace_back(Contact<M>{.side = "back",  // z = 0
                                 .tool = rigid::sphere({1, 0.5, -3}, 3),
                                 .motion = [&](Real t) { return t <= 1 ? rigid::Pose<3>{} : turning; },
                                 .friction = {.mu = 0.3},
                                 .enforcement = {.normal = 1e4, .tangential = 1e3}},
-                     body.mesh(), body.kinematics());
+                     body);
   typename System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {}, {});
   Field u = Field::Zero(system.dofs().components());

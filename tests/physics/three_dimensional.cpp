@@ -48,7 +48,7 @@ TEST_CASE("plastic hexahedra pass the patch test") {
 TEST_CASE_TEMPLATE("a rigid rotation gives no stress", M, Brick<Hencky, Mean>, Brick<Hencky, Plain>,
                    Brick<FiniteJ2<LinearHardening>>) {
   const auto mesh = distorted_cube({2, 2, 2});
-  Body<M> body(mesh, {}, material<typename M::Material>());
+  Bodies<M> body(mesh, {}, material<typename M::Material>());
   typename System<M>::Pairs pairs{};
   typename System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {}, {});
@@ -201,7 +201,7 @@ TEST_CASE("of two bodies in space the one that can rotate about a line, or trans
 
 TEST_CASE("a free body in space keeps its momentum") {
   Problem<Moving> p(
-      {.body = distorted_cube({2, 2, 2}), .material = material<Hencky>(), .time_integration = {.density = 3}});
+      {.body = distorted_cube({2, 2, 2}), .material = material<Hencky>(), .density = 3});
   p.start_velocity(V3(1, -2, 0.5));
   auto march = p.march({.end = 0.3, .steps = 3, .tolerance = 1e-10});
   CHECK(bool(march.finish()));

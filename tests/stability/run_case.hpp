@@ -7,6 +7,7 @@
 
 #include <stickslip/geometry/tool.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/run_time.hpp>
 #include <stickslip/time_integration/generalized_alpha.hpp>
 #include <stickslip/verify/energy.hpp>
 
@@ -148,7 +149,7 @@ CaseResultOf<dim> run_case(const CaseSetupOf<dim>& setup, const LookOf<dim>& loo
     material.hardening.exponent = setup.exponent;
   }
   if constexpr (has_inertia<M>) {
-    parameters.time_integration.density = setup.density;
+    parameters.density = setup.density;
     parameters.time_integration.scheme = setup.scheme.value_or(chung_hulbert(setup.radius));
   }
   if constexpr (has_contact<M>)
@@ -207,6 +208,24 @@ CaseResultOf<dim> run_case(const CaseSetupOf<dim>& setup, const LookOf<dim>& loo
   out.plastic = problem.max_plastic_strain();
   out.unbalanced = amount > 0 ? error / amount : 0;
   return out;
+}
+
+/// The models of a list, compiled here.
+template <class... Models>
+auto tested(const run_time::Choices<Models...>& models) {
+  constexpr int dim = std::tuple_element_t<0, std::tuple<Models...>>::Kinematics::dim;
+  std::vector<TestedModelOf<dim>> all;
+  models.for_each([&]<class M>(run_time::Named<M> model) {
+    all.push_back({.name = model.name,
+                   .run_case = run_case<M>,
+                   .lags = has_lag<M>() && !has_outer_iterations<M>(),
+                   .augmented = is_augmented<typename M::Enforcement>});
+  });
+  return all;
+}
+template <class M>
+auto tested(const char* name) {
+  return tested(run_time::Choices{run_time::Named<M>{name}}).front();
 }
 
 }  // namespace stability

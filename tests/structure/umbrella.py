@@ -24,7 +24,7 @@ def reached(start):
 
 umbrella = "stickslip.hpp"
 comment = " ".join(re.findall(r"^/// (.*)$", texts[umbrella].split("#include")[0], re.M))
-named = set(re.findall(r"\b\w+/\w+\.hpp", comment))
+named = set(re.findall(r"(?<![\w/])(?:\w+/)?\w+\.hpp", comment))
 folders = set(re.findall(r"(?<![\w/.])(\w+/)(?![\w])", comment))
 parts = re.search(r"stickslip_parts \"\"\)(.*?)\n# stickslip_add_part", (root / "cmake/stickslipParts.cmake").read_text(), re.S)[1]
 optional = {header for line in re.findall(r"HEADERS ([^A-Z]*)", parts) for header in line.split()}
