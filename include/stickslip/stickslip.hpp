@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-/// Everything that needs only Eigen, except the iterative solvers (linear_solver/eigen_iterative.hpp). Include these,
-/// the headers that need other libraries (linear_solver/cholmod.hpp, umfpack.hpp, mumps.hpp, banded.hpp,
-/// material/tabulated_hardening.hpp, geometry/triangulated.hpp), io/ and verify/ where you use them.
+/// Everything that needs Eigen alone, but for four parts to include where you use them (tests/structure/umbrella.py):
+/// - io/, which reads and writes files;
+/// - run_time.hpp, for programs that offer models and solvers by name;
+/// - linear_solver/eigen_iterative.hpp, whose Eigen headers would cost each program a second to compile, of twelve of
+///   README.md's;
+/// - what needs another library: linear_solver/cholmod.hpp, linear_solver/umfpack.hpp, linear_solver/mumps.hpp,
+///   linear_solver/banded.hpp, material/tabulated_hardening.hpp, geometry/triangulated.hpp.
 
+#include <stickslip/advise.hpp>
+#include <stickslip/damping/stiffness_damping.hpp>
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
@@ -35,7 +41,16 @@
 #include <stickslip/mesh/extrude.hpp>
 #include <stickslip/mesh/quarter_disc.hpp>
 #include <stickslip/problem.hpp>
+#include <stickslip/time_integration/generalized_alpha.hpp>
 #include <stickslip/time_integration/quasistatic.hpp>
+#include <stickslip/verify/contact.hpp>
+#include <stickslip/verify/element.hpp>
+#include <stickslip/verify/energy.hpp>
+#include <stickslip/verify/material.hpp>
+#include <stickslip/verify/system.hpp>
+#include <stickslip/verify/tangent.hpp>
+#include <stickslip/verify/tool.hpp>
+#include <stickslip/version.hpp>
 
 namespace stickslip {
 

@@ -16,7 +16,7 @@ def found(file, pattern):
 
 HEADER = "include/stickslip/version.hpp"
 version = found(HEADER, r"version_major = (\d+), version_minor = (\d+), version_patch = (\d+);")
-others = {f"{HEADER}, text": found(HEADER, r'version = "([^"]*)"'),
+others = {f"{HEADER}, text": found(HEADER, r'version_text = "([^"]*)"'),
           "CMakeLists.txt": found("CMakeLists.txt", r"project\(stickslip VERSION (\S+)"),
           "CITATION.cff": found("CITATION.cff", r"(?m)^version: (\S+)$")}
 minor = version.rpartition(".")[0]
