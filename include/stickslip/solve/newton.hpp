@@ -248,7 +248,7 @@ class Newton {
     if (step_.size() == 0) return {};  // nothing to solve for; the condensed unknowns close all the same
     {
       const Stopwatch watch(system.timings.factorization);
-      const Factorization f = solver_.factorize(system.matrix());
+      const Factorization f = solver_.factorize(system.tangent());
       ++counts.factorizations;
       --counts.tangents_unused;
       if (f == Factorization::indefinite) ++counts.indefinite_factorizations;
@@ -261,7 +261,7 @@ class Newton {
       if (!std::exchange(judged_, true)) {
         const Stopwatch watch(system.timings.solve);
         const Real condition =
-            digits_.condition(system.matrix(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
+            digits_.condition(system.tangent(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
         if (condition > FactorDigits::limit) return {FailureCause::singular_matrix, {}};
       }
     const Index corrections = corrections_so_far();
