@@ -78,12 +78,12 @@ int extrude(const examples::Options& options) {
 
 int main(int argc, char** argv) {
   constexpr auto frictions = examples::coulomb_laws;
-  constexpr auto solvers = examples::all_solvers;
+  using examples::AllSolvers;
   const examples::Program program{
       .name = "conical_extrusion",
       .title = "a billet pushed into a rigid cone",
       .frictions = frictions.list(),
-      .solvers = solvers.list(),
+      .solvers = AllSolvers::solvers().names(),
       .mu = 0.1,
       .tolerance = 1e-4,
       .parameters = {{.name = "half-angle", .about = "of the cone, in degrees", .value = 5, .low = 0.5, .high = 30},
@@ -96,8 +96,8 @@ int main(int argc, char** argv) {
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;
-    if (options->list) return examples::print_list<Extrusion>(frictions, solvers);
-    return examples::dispatch<Extrusion>(*options, frictions, solvers,
-                                         [&]<class Model>() { return extrude<Model>(*options); });
+    if (options->list) return examples::print_list<Extrusion, AllSolvers>(frictions);
+    return examples::dispatch<Extrusion, AllSolvers>(*options, frictions,
+                                                     [&]<class Model>() { return extrude<Model>(*options); });
   });
 }

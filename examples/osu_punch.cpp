@@ -7,10 +7,12 @@
 // García Garino & Ponthot's paper on the Quasi-Coulomb law: the sheet is thin, the normal forces change slowly, and a
 // friction bound that lags one step behind hardly errs.
 //
-//        z |      . punch .          The punch comes down from above. The die stands below, its fillet of 6.35 mm ends
-//          |_____/_________|_____    where the sheet is clamped, at r = 59.18 mm.
-//    sheet |_____________________|x
-//          |             (  die      Lengths in mm, forces in N of the full turn, stresses in MPa.
+//        z |         /             The punch comes down from above. The die stands below, its fillet of 6.35 mm ends
+//          | punch .'              where the sheet is clamped (*), at r = 59.18 mm.
+//          |___.--'_____________
+//    sheet |____________________*  Lengths in mm, forces in N of the full turn, stresses in MPa.
+//          |                .--'
+//          |               | die
 //          +--------------------- r
 
 #include "common/benchmark.hpp"
@@ -72,19 +74,19 @@ int punch(const examples::Options& options) {
 
 int main(int argc, char** argv) {
   constexpr auto frictions = examples::coulomb_laws;
-  constexpr auto solvers = examples::all_solvers;
+  using examples::AllSolvers;
   const examples::Program program{
       .name = "osu_punch",
       .title = "a clamped sheet stretched over a hemispherical punch",
       .frictions = frictions.list(),
-      .solvers = solvers.list(),
+      .solvers = AllSolvers::solvers().names(),
       .mu = 0.15,
       .parameters = {{.name = "travel", .about = "punch travel in mm", .value = 40, .low = 1, .high = 500}}};
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;
-    if (options->list) return examples::print_list<Punch>(frictions, solvers);
-    return examples::dispatch<Punch>(*options, frictions, solvers,
-                                     [&]<class Model>() { return punch<Model>(*options); });
+    if (options->list) return examples::print_list<Punch, AllSolvers>(frictions);
+    return examples::dispatch<Punch, AllSolvers>(*options, frictions,
+                                                 [&]<class Model>() { return punch<Model>(*options); });
   });
 }

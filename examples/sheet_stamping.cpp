@@ -5,11 +5,13 @@
 // The same sheet, tools, material and law of friction, but nothing is known of the symmetry about the axis: the
 // solid elements, contact and friction are those of space. Its force must be that of the axisymmetric program.
 //
-//        z |      . punch .          Symmetric about the planes x = 0 and y = 0, which hold the sheet. Clamped at its
-//          |_____/_________|_____    rim. Forces are those of the full punch.
-//    sheet |_____________________|x
-//         /|             (  die      --refine N has 7N x 7N elements in the middle, as many between it and each half
-//       y/ +---------------------    of the rim, and 2N through the thickness: 14N along a radius, as osu_punch has.
+//        z |         /               The plane of symmetry y = 0; y points away from the viewer. Symmetric about x = 0
+//          | punch .'                too. The sheet is clamped at its rim (*). Forces are those of the full punch.
+//          |___.--'_____________
+//    sheet |____________________*    --refine N has 7N x 7N elements in the middle, as many between it and each half
+//          |                .--'     of the rim, and 2N through the thickness: 14N along a radius, as osu_punch has.
+//          |               | die
+//          +--------------------- x
 //
 // With --solver-table on, every solver that takes the system marches to the travel and its costs are printed:
 // sheet_stamping --refine 3 --travel 1 --solver-table on
@@ -21,29 +23,18 @@
 using namespace stickslip;
 
 // Instantiated once each, in the units of the folder sheet_stamping.
-extern template int stamp<Stamping<Coulomb, examples::ChosenFull>>(const examples::Options&);
-extern template int stamp<Stamping<Coulomb, examples::ChosenCorrected>>(const examples::Options&);
-extern template int stamp<Stamping<QuasiCoulomb, examples::ChosenLower>>(const examples::Options&);
+extern template int stamp<SolvedStamping<Coulomb, run_time::Takes::full>>(const examples::Options&);
+extern template int stamp<SolvedStamping<Coulomb, run_time::Takes::corrections>>(const examples::Options&);
+extern template int stamp<SolvedStamping<QuasiCoulomb, run_time::Takes::triangle>>(const examples::Options&);
 
 int main(int argc, char** argv) {
-  using examples::ChosenCorrected, examples::ChosenEither, examples::ChosenFull, examples::ChosenLower, examples::Named;
-  constexpr examples::Choices frictions{Named<Coulomb>{"coulomb"}, Named<QuasiCoulomb>{"quasi-coulomb"}};
-  constexpr examples::Choices solvers{Named<ChosenEither>{"mumps"},
-                                      Named<ChosenLower>{"cholmod"},
-                                      Named<ChosenFull>{"umfpack"},
-                                      Named<ChosenEither>{"banded"},
-                                      Named<ChosenLower>{"eigen-ldlt"},
-                                      Named<ChosenFull>{"eigen-lu"},
-                                      Named<ChosenLower>{"conjugate-gradients"},
-                                      Named<ChosenFull>{"bicgstab"},
-                                      Named<ChosenCorrected>{"corrected-cholmod"},
-                                      Named<ChosenCorrected>{"corrected-banded"},
-                                      Named<ChosenCorrected>{"corrected-eigen-ldlt"}};
+  using run_time::Named;
+  constexpr run_time::Choices frictions{Named<Coulomb>{"coulomb"}, Named<QuasiCoulomb>{"quasi-coulomb"}};
   const examples::Program program{
       .name = "sheet_stamping",
       .title = "a quarter of a clamped sheet stretched over a hemispherical punch, in three dimensions",
       .frictions = frictions.list(),
-      .solvers = solvers.list(),
+      .solvers = SheetSolvers::solvers().names(),
       .mu = 0.15,
       .parameters = {
           {.name = "travel", .about = "punch travel in mm", .value = 40, .low = 0.001, .high = 500},
@@ -55,15 +46,18 @@ int main(int argc, char** argv) {
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;
-    using Any = Stamping<QuasiCoulomb, ChosenLower>;
-    if (options->list) return examples::print_list<Any>(frictions, solvers);
+    using Any = SolvedStamping<QuasiCoulomb, run_time::Takes::triangle>;
+    if (options->list) return examples::print_list<Any, SheetSolvers>(frictions);
     const auto run = [&](const examples::Options& o) {
-      return examples::dispatch<Any>(o, frictions, solvers, [&]<class Model>() {
-        return stamp<Stamping<typename Model::Friction, SolverOf<Model>>>(o);
+      return examples::dispatch<Any, SheetSolvers>(o, frictions, [&]<class Model>() {
+        return stamp<Stamping<typename Model::Friction, typename Model::LinearSolver>>(o);
       });
     };
     if (options->parameters.at("solver-table") == 0) return run(*options);
-    return examples::print_solver_table(*options, examples::able<Any>(*options, frictions, solvers),
-                                        options->parameters.at("memory"), options->parameters.at("patience"), run);
+    const auto able = frictions.find("friction", options->friction, []<class Friction>(Named<Friction>) {
+      return run_time::solvers_for<Any, SheetSolvers, Friction>();
+    });
+    return examples::print_solver_table(*options, able, options->parameters.at("memory"),
+                                        options->parameters.at("patience"), run);
   });
 }

@@ -8,6 +8,7 @@
 #include "outputs.hpp"
 #include "pictures.hpp"
 #include "record.hpp"
+#include "solvers.hpp"
 
 #include <stickslip/advise.hpp>
 #include <stickslip/friction/coulomb.hpp>
@@ -17,6 +18,7 @@
 #include <stickslip/verify/energy.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,26 +26,15 @@
 namespace examples {
 
 /// The paper's friction laws and the cures of the lag, under their command-line names.
-inline constexpr Choices coulomb_laws{
-    Named<stickslip::Coulomb>{"coulomb"},
-    Named<stickslip::QuasiCoulomb>{"quasi-coulomb"},
-    Named<stickslip::Frictionless>{"frictionless"},
-    Named<stickslip::ExtrapolatedCoulomb>{"extrapolated-quasi-coulomb"},
-    Named<stickslip::WithPressure<stickslip::Coulomb, stickslip::LagIterated>>{"lag-iterated-coulomb"},
-    Named<stickslip::WithPressure<stickslip::Coulomb, stickslip::Symmetrised>>{"symmetrised-coulomb"}};
-/// All solvers.
-inline constexpr Choices all_solvers{Named<ChosenEither>{"banded"},
-                                     Named<ChosenLower>{"eigen-ldlt"},
-                                     Named<ChosenFull>{"eigen-lu"},
-                                     Named<ChosenLower>{"cholmod"},
-                                     Named<ChosenFull>{"umfpack"},
-                                     Named<ChosenEither>{"mumps"},
-                                     Named<ChosenLower>{"conjugate-gradients"},
-                                     Named<ChosenFull>{"bicgstab"},
-                                     Named<ChosenCorrected>{"corrected-banded"},
-                                     Named<ChosenCorrected>{"corrected-cholmod"},
-                                     Named<ChosenCorrected>{"corrected-eigen-ldlt"}};
-
+inline constexpr stickslip::run_time::Choices coulomb_laws{
+    stickslip::run_time::Named<stickslip::Coulomb>{"coulomb"},
+    stickslip::run_time::Named<stickslip::QuasiCoulomb>{"quasi-coulomb"},
+    stickslip::run_time::Named<stickslip::Frictionless>{"frictionless"},
+    stickslip::run_time::Named<stickslip::ExtrapolatedCoulomb>{"extrapolated-quasi-coulomb"},
+    stickslip::run_time::Named<stickslip::WithPressure<stickslip::Coulomb, stickslip::LagIterated>>{
+        "lag-iterated-coulomb"},
+    stickslip::run_time::Named<stickslip::WithPressure<stickslip::Coulomb, stickslip::Symmetrised>>{
+        "symmetrised-coulomb"}};
 /// Whether the books of work and energy are kept.
 enum class Books { none, kept };
 
@@ -124,7 +115,9 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark be
 
   Clock clock;
   clock.start();
-  auto march = problem.march(benchmark.march);
+  SolverParametersOf<Model> solver{};
+  if constexpr (std::same_as<SolverParametersOf<Model>, run_time::SolverName>) solver.name = options.solver;
+  auto march = problem.march(benchmark.march, solver);
   LedgerOf<Model, books> ledger;
   if constexpr (books == Books::kept) ledger.emplace(problem);
   RunState<Model, books> state{options, march, ledger, series, r, next_frame, last_frame};

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scene.hpp"
 
-template int stamp<Stamping<stickslip::Coulomb, examples::ChosenFull>>(const examples::Options&);
+template int stamp<SolvedStamping<stickslip::Coulomb, stickslip::run_time::Takes::full>>(const examples::Options&);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scene.hpp"
 
-template int stamp<Stamping<stickslip::Coulomb, examples::ChosenCorrected>>(const examples::Options&);
+template int stamp<SolvedStamping<stickslip::Coulomb, stickslip::run_time::Takes::corrections>>(
+    const examples::Options&);

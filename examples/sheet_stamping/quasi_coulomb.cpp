@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scene.hpp"
 
-template int stamp<Stamping<stickslip::QuasiCoulomb, examples::ChosenLower>>(const examples::Options&);
+template int stamp<SolvedStamping<stickslip::QuasiCoulomb, stickslip::run_time::Takes::triangle>>(
+    const examples::Options&);

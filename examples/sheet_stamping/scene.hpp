@@ -3,7 +3,6 @@
 #pragma once
 
 #include "common/benchmark.hpp"
-#include "common/chosen_solver.hpp"
 
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
@@ -22,6 +21,18 @@ struct Stamping : stickslip::QuasistaticDefaults {
   using LinearSolver = Solver;
   using Tool = stickslip::rigid::Revolution;
 };
+
+// All solvers; the first is the default.
+struct SheetSolvers {
+  static const stickslip::run_time::SolverList& solvers() {
+    static const stickslip::run_time::SolverList all = examples::AllSolvers::solvers().only(
+        {"mumps", "cholmod", "umfpack", "banded", "eigen-ldlt", "eigen-lu", "conjugate-gradients", "bicgstab",
+         "corrected-cholmod", "corrected-banded", "corrected-eigen-ldlt"});
+    return all;
+  }
+};
+template <class Friction, stickslip::run_time::Takes matrix>
+using SolvedStamping = Stamping<Friction, stickslip::run_time::SolverByName<SheetSolvers, matrix>>;
 
 template <class Model>
 int stamp(const examples::Options& options) {

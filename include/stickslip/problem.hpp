@@ -73,7 +73,7 @@ class March : public RunState {
   friend class Problem<Model>;
   using Mechanical = MechanicsOf<Model>;
   using Iterate = typename System<Mechanical>::Iterate;
-  March(Problem<Model>& problem, const MarchOptions& options);
+  March(Problem<Model>& problem, const MarchOptions& options, const SolverParametersOf<Model>& solver);
   struct Attempt {
     NewtonReport newton{};
     Index outer_iterations = 1, first_iterations = 0;
@@ -107,9 +107,9 @@ class March : public RunState {
 
   Scene<Mechanical>& problem_;
   Index state_;  // revision of the converged state that the next step starts from
-  Newton<SolverOf<Model>, has_inexact_tangent<Model>()> newton_;
+  Newton<SolverOf<Model>, has_inexact_tangent<Model>(), typename System<Mechanical>::Space> newton_;
   Field trial_, driven_, outer_guess_;
-  std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
+  std::unique_ptr<StressRecoveries<Mechanical>> stress_;  // where the mesh's error is asked for
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
   using Gain = std::optional<EnergyGain<Mechanical, Scene<Mechanical>>>;
   [[no_unique_address]] StoredIf<keeps_energy, Gain, March> gain_;  // to see what the time scheme gains
@@ -121,12 +121,14 @@ namespace detail {
 template <class Model>
 struct SceneOf {
   struct type {};
+  using Solver = NoSolverParameters;
 };
 template <class Model>
 concept SoundMechanics = rule::HasSymmetry<Model> && rule::LinearSolver<Model> && valid_model<MechanicsOf<Model>>;
 template <SoundMechanics Model>
 struct SceneOf<Model> {
   using type = Scene<MechanicsOf<Model>>;
+  using Solver = SolverParametersOf<Model>;
 };
 }  // namespace detail
 
@@ -140,31 +142,36 @@ class Problem : public detail::SceneOf<Model>::type {
   using Base = typename detail::SceneOf<Model>::type;
   using Base::Base;
 
-  /// Begins a run from the present state; the problem must outlive it.
-  March<Model> march(const MarchOptions& options) {
+  /// Begins a run from the present state; the problem must outlive it. Throws std::invalid_argument for options or
+  /// parameters of the solver that cannot be taken.
+  March<Model> march(const MarchOptions& options, const typename detail::SceneOf<Model>::Solver& solver = {}) {
     options.validate(this->time());
-    return March<Model>(*this, options);
+    return March<Model>(*this, options, solver);
   }
 };
 
 template <class Model>
-March<Model>::March(Problem<Model>& problem, const MarchOptions& options)
+March<Model>::March(Problem<Model>& problem, const MarchOptions& options, const SolverParametersOf<Model>& solver)
     : RunState(options, problem.time_),
       problem_(problem),
       state_(problem.revision_),
       newton_(NewtonOptions{.tolerance = options.tolerance,
                             .max_iterations = options.max_iterations,
-                            .line_search = options.line_search}) {
+                            .line_search = options.line_search},
+              solver) {
   if constexpr (has_outer_iterations<Model>() || has_lag<Model>()) outer_guess_ = problem.u_;
-  if (options.mesh_error_interval > 0)
-    stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
+  if (options.mesh_error_interval > 0) stress_ = std::make_unique<StressRecoveries<Mechanical>>(problem.bodies_);
   problem_.prepare();
-  if (const auto apart = mesh::coincident_nodes(problem_.body_.mesh()); apart.nodes > 0)
-    now_.warnings.add("coincident_nodes", "",
-                      std::to_string(apart.nodes) + " nodes of the mesh lie where another one does, nodes " +
-                          std::to_string(apart.first[0]) + " and " + std::to_string(apart.first[1]) +
-                          " (from 0) among them: what was meshed in blocks that were not joined comes apart there",
-                      0);
+  problem_.bodies_.for_each([&](const auto& body) {
+    if (const auto apart = mesh::coincident_nodes(body.mesh()); apart.nodes > 0)
+      now_.warnings.add("coincident_nodes", body.name(),
+                        std::to_string(apart.nodes) + " nodes of the mesh" +
+                            (body.name().empty() ? "" : " of body \"" + body.name() + "\"") +
+                            " lie where another one does, nodes " + std::to_string(apart.first[0]) + " and " +
+                            std::to_string(apart.first[1]) +
+                            " (from 0) among them: what was meshed in blocks that were not joined comes apart there",
+                        0);
+  });
   problem_.require_agreement(options.end);
   if constexpr (has_contact<Model>)
     problem_.visit_contacts([&](const auto& pair) {
@@ -344,7 +351,7 @@ typename March<Model>::Attempt March<Model>::attempt(Iterate& iterate, Field& u,
   } else {
     driven_ = u - problem_.u_;
     u = problem_.u_;
-    newton = newton_.solve(iterate, u, time, dt, driven_.isZero(0) ? nullptr : &driven_);
+    newton = newton_.solve(iterate, u, time, dt, system.space().max(driven_) == 0 ? nullptr : &driven_);
   }
   if constexpr (has_friction<Model> && !has_inertia<Model>)
     if (newton.failure) retry(iterate, u, time, dt, newton);
@@ -376,12 +383,12 @@ typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field&
   System<Mechanical>& system = *problem_.system_;
   Diagnosis<Mechanical>& diagnosis = *problem_.diagnosis_;
   // Of the solution, for the next evaluations may be of other states.
-  const Real scale = std::max(system.forces().scale(), now_.largest_force);
+  const Real scale = std::max(system.forces().scale(system.space()), now_.largest_force);
   const Real left = newton.residual > 0 ? system.forces().norm : 0;  // not of a body that only moves
   // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
   if constexpr (!has_inertia<Model>) {
     driven_ = u - problem_.u_;
-    if (!problem_.proven_ || driven_.template lpNorm<Eigen::Infinity>() > system.body().extent() ||
+    if (!problem_.proven_ || system.space().max(driven_) > system.bodies().extent() ||
         diagnosis.loose_part(false) >= 0) {
       if (!system.has_tangent()) {
         ++newton_.counts.evaluations;
@@ -468,6 +475,7 @@ void March<Model>::advance() {
       }
       if (!failure && !too_coarse) {
         const ContactSummary contact = contact_summary(problem_.pairs_);
+        driven_ = u - problem_.u_;
         StepReport step{.time = time,
                         .dt = dt,
                         .iterations = newton.iterations,
@@ -477,7 +485,7 @@ void March<Model>::advance() {
                         .residual = newton.residual,
                         .contact = contact,
                         .local_error = local_error,
-                        .work = std::abs(system.forces().internal.dot(u - problem_.u_)) + contact.dissipated};
+                        .work = std::abs(system.space().dot(system.forces().internal, driven_)) + contact.dissipated};
         if (Reason reason = doubt(iterate, u, step, newton); reason.failure)
           return end(std::move(reason), dt, rejected + 1);
         if (newton_.tells_pivots && newton.iterations == 0) step.negative_pivots = now_.negative_pivots;
@@ -488,7 +496,7 @@ void March<Model>::advance() {
         complete_step(step, tried.first_iterations, error, [&] {
           if (!stress_ || now_.report.steps % options_.mesh_error_interval != 0) return now_.step.errors.space;
           const Stopwatch watch(system.timings.estimates);
-          stress_->update(problem_.body_, u);
+          stress_->update(problem_.bodies_, u);
           return stress_->relative();
         });
         return;

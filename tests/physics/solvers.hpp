@@ -71,10 +71,10 @@ Answer answer(Solver& solver, const Matrix& m) {
   if constexpr (is_direct<Solver>) {
     FactorDigits digits;
     digits.resize(m.view().size);
-    a.condition =
-        a.factorization == Factorization::failed
-            ? std::numeric_limits<Real>::infinity()
-            : digits.condition(m.view(), [&](const Field& b, Field& x) { return solver.solve(b.data(), x.data()); });
+    a.condition = a.factorization == Factorization::failed
+                      ? std::numeric_limits<Real>::infinity()
+                      : digits.condition(m.view(), SerialSpace{},
+                                         [&](const Field& b, Field& x) { return solver.solve(b.data(), x.data()); });
   }
   if (a.factorization != Factorization::failed) a.solved = solver.solve(right_hand_side(m).data(), a.x.data());
   return a;

@@ -9,20 +9,19 @@
 
 namespace stability {
 
-using scene::Model;
+using run_time::Named, scene::Model;
 using Iterated = WithPressure<Coulomb, LagIterated>;
 template <class S, class F>
 using Multipliers = Model<S, F, Hencky, PlaneStrain, MeanDilatation<Quad4>, AugmentedLagrangian>;
 
 const std::vector<TestedModel>& elastic() {
-  static const std::vector<TestedModel> all = {
-      {"Coulomb, EigenLu", run_case<Model<EigenLu, Coulomb>>},
-      {"Coulomb, Corrected<EigenLdlt>", run_case<Model<Corrected<EigenLdlt>, Coulomb>>},
-      {"LagIterated, EigenLdlt", run_case<Model<EigenLdlt, Iterated>>},
-      {"Symmetrised, EigenLdlt", run_case<Model<EigenLdlt, WithPressure<Coulomb, Symmetrised>>>},
-      {"QuasiCoulomb, EigenLdlt", run_case<Model<EigenLdlt, QuasiCoulomb>>, true},
-      {"multipliers, Coulomb, EigenLu", run_case<Multipliers<EigenLu, Coulomb>>, false, true},
-  };
+  static const auto all =
+      tested(run_time::Choices{Named<Model<EigenLu, Coulomb>>{"Coulomb, EigenLu"},
+                               Named<Model<Corrected<EigenLdlt>, Coulomb>>{"Coulomb, Corrected<EigenLdlt>"},
+                               Named<Model<EigenLdlt, Iterated>>{"LagIterated, EigenLdlt"},
+                               Named<Model<EigenLdlt, WithPressure<Coulomb, Symmetrised>>>{"Symmetrised, EigenLdlt"},
+                               Named<Model<EigenLdlt, QuasiCoulomb>>{"QuasiCoulomb, EigenLdlt"},
+                               Named<Multipliers<EigenLu, Coulomb>>{"multipliers, Coulomb, EigenLu"}});
   return all;
 }
 const TestedModel& coulomb() {
@@ -35,7 +34,7 @@ const TestedModel& augmented() {
   return elastic()[5];
 }
 const TestedModel& smooth() {
-  static const TestedModel one{"Frictionless, EigenLdlt", run_case<Model<EigenLdlt, Frictionless>>};
+  static const TestedModel one = tested<Model<EigenLdlt, Frictionless>>("Frictionless, EigenLdlt");
   return one;
 }
 

@@ -8,43 +8,40 @@
 
 namespace stability {
 
-using scene::Model;
+using run_time::Named, scene::Model;
 template <class S, class F, class M, class K>
 struct Moving : Model<S, F, M, K> {
   using TimeIntegration = GeneralizedAlpha;
 };
 
 const TestedModel& metal() {
-  static const TestedModel one{"J2, QuasiCoulomb, EigenLdlt",
-                               run_case<Model<EigenLdlt, QuasiCoulomb, FiniteJ2<LinearHardening>>>, true};
+  static const TestedModel one =
+      tested<Model<EigenLdlt, QuasiCoulomb, FiniteJ2<LinearHardening>>>("J2, QuasiCoulomb, EigenLdlt");
   return one;
 }
 const std::vector<TestedModel>& sheets() {
   using Sheet = FiniteJ2<PowerHardening>;
-  static const std::vector<TestedModel> all = {
-      {"axisymmetric J2, Coulomb, EigenLu", run_case<Model<EigenLu, Coulomb, Sheet, Axisymmetric>>},
-      {"axisymmetric J2, QuasiCoulomb, EigenLdlt", run_case<Model<EigenLdlt, QuasiCoulomb, Sheet, Axisymmetric>>, true},
-  };
+  static const auto all = tested(run_time::Choices{
+      Named<Model<EigenLu, Coulomb, Sheet, Axisymmetric>>{"axisymmetric J2, Coulomb, EigenLu"},
+      Named<Model<EigenLdlt, QuasiCoulomb, Sheet, Axisymmetric>>{"axisymmetric J2, QuasiCoulomb, EigenLdlt"}});
   return all;
 }
 const std::vector<TestedModel>& moving() {
-  static const std::vector<TestedModel> all = {
-      {"dynamics, Coulomb, EigenLu", run_case<Moving<EigenLu, Coulomb, Hencky, PlaneStrain>>},
-      {"dynamics, QuasiCoulomb, EigenLdlt", run_case<Moving<EigenLdlt, QuasiCoulomb, Hencky, PlaneStrain>>, true},
-  };
+  static const auto all = tested(run_time::Choices{
+      Named<Moving<EigenLu, Coulomb, Hencky, PlaneStrain>>{"dynamics, Coulomb, EigenLu"},
+      Named<Moving<EigenLdlt, QuasiCoulomb, Hencky, PlaneStrain>>{"dynamics, QuasiCoulomb, EigenLdlt"}});
   return all;
 }
 struct Ringing : Moving<EigenLdlt, Frictionless, Hencky, PlaneStrain> {
   using Enforcement = AugmentedLagrangian;
 };
 const TestedModel& ringing() {
-  static const TestedModel one{"dynamics, frictionless, multipliers, EigenLdlt", run_case<Ringing>, false, true};
+  static const TestedModel one = tested<Ringing>("dynamics, frictionless, multipliers, EigenLdlt");
   return one;
 }
 const TestedModel& tube() {
-  static const TestedModel one{"axisymmetric J2 dynamics, QuasiCoulomb, EigenLdlt",
-                               run_case<Moving<EigenLdlt, QuasiCoulomb, FiniteJ2<LinearHardening>, Axisymmetric>>,
-                               true};
+  static const TestedModel one = tested<Moving<EigenLdlt, QuasiCoulomb, FiniteJ2<LinearHardening>, Axisymmetric>>(
+      "axisymmetric J2 dynamics, QuasiCoulomb, EigenLdlt");
   return one;
 }
 

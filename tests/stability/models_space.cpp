@@ -12,6 +12,7 @@
 
 namespace stability::space {
 
+using run_time::Named;
 template <class S, class F, class E = Penalty>
 using Solid = scene::Model<S, F, Hencky, ThreeDimensional, MeanDilatation<Hex8>, E>;
 template <class S, class F>
@@ -20,12 +21,11 @@ struct Moving : Solid<S, F> {
 };
 
 const std::vector<TestedModel>& elastic() {
-  static const std::vector<TestedModel> all = {
-      {"Coulomb, EigenLu", run_case<Solid<EigenLu, Coulomb>>},
-      {"Coulomb, Corrected<EigenLdlt>", run_case<Solid<Corrected<EigenLdlt>, Coulomb>>},
-      {"QuasiCoulomb, EigenLdlt", run_case<Solid<EigenLdlt, QuasiCoulomb>>, true},
-      {"multipliers, Coulomb, EigenLu", run_case<Solid<EigenLu, Coulomb, AugmentedLagrangian>>, false, true},
-  };
+  static const auto all =
+      tested(run_time::Choices{Named<Solid<EigenLu, Coulomb>>{"Coulomb, EigenLu"},
+                               Named<Solid<Corrected<EigenLdlt>, Coulomb>>{"Coulomb, Corrected<EigenLdlt>"},
+                               Named<Solid<EigenLdlt, QuasiCoulomb>>{"QuasiCoulomb, EigenLdlt"},
+                               Named<Solid<EigenLu, Coulomb, AugmentedLagrangian>>{"multipliers, Coulomb, EigenLu"}});
   return all;
 }
 const TestedModel& coulomb() {
@@ -38,18 +38,17 @@ const TestedModel& augmented() {
   return elastic()[3];
 }
 const TestedModel& smooth() {
-  static const TestedModel one{"Frictionless, EigenLdlt", run_case<Solid<EigenLdlt, Frictionless>>};
+  static const TestedModel one = tested<Solid<EigenLdlt, Frictionless>>("Frictionless, EigenLdlt");
   return one;
 }
 const TestedModel& anisotropic() {
-  static const TestedModel one{"AnisotropicCoulomb, EigenLu", run_case<Solid<EigenLu, AnisotropicCoulomb>>};
+  static const TestedModel one = tested<Solid<EigenLu, AnisotropicCoulomb>>("AnisotropicCoulomb, EigenLu");
   return one;
 }
 const std::vector<TestedModel>& moving() {
-  static const std::vector<TestedModel> all = {
-      {"dynamics, Coulomb, EigenLu", run_case<Moving<EigenLu, Coulomb>>},
-      {"dynamics, QuasiCoulomb, EigenLdlt", run_case<Moving<EigenLdlt, QuasiCoulomb>>, true},
-  };
+  static const auto all =
+      tested(run_time::Choices{Named<Moving<EigenLu, Coulomb>>{"dynamics, Coulomb, EigenLu"},
+                               Named<Moving<EigenLdlt, QuasiCoulomb>>{"dynamics, QuasiCoulomb, EigenLdlt"}});
   return all;
 }
 

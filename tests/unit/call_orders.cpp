@@ -48,18 +48,18 @@ struct Pressed {
 
 // A block whose upper side is up to 0.1 deep in a disc: three of its nodes, at 0.5, 1 and 1.5.
 struct Scene {
-  Body<Pressed> body{mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}), {}, {.young = 1000, .poisson = 0.3}};
+  Bodies<Pressed> bodies{mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}), {}, {.young = 1000, .poisson = 0.3}};
   ContactPairs<Pressed> pairs;
   System<Pressed>::Inertia inertia{};
   System<Pressed> system;
   Field u;
 
-  Scene() : system(body, with_contact(), inertia, {{"bottom", 0, nullptr}, {"bottom", 1, nullptr}}, {}) {
+  Scene() : system(bodies, with_contact(), inertia, {{"bottom", 0, nullptr}, {"bottom", 1, nullptr}}, {}) {
     u.setZero(system.dofs().components());
   }
   ContactPairs<Pressed>& with_contact() {
     const Contact<Pressed> contact{.side = "top", .tool = rigid::disc({1, 3.9}, 3)};
-    pairs.emplace_back(contact, body.mesh(), body.kinematics());
+    pairs.emplace_back(contact, bodies);
     return pairs;
   }
   // An evaluation that fails: a node is nowhere.
@@ -223,7 +223,7 @@ TEST_CASE("multipliers with default penalties press at the first evaluation, wit
   const Eigen::MatrixXd stiffness = verify::dense(alone.system.matrix());
   Real expected = 0;
   for (const Index n : alone.pairs.front().nodes()) {
-    const Vec<Real, 2> from = alone.body.mesh().nodes[static_cast<std::size_t>(n)] - Vec<Real, 2>(1, 3.9);
+    const Vec<Real, 2> from = alone.bodies.positions()[static_cast<std::size_t>(n)] - Vec<Real, 2>(1, 3.9);
     const Index x = alone.system.dofs().equation(2 * n), y = alone.system.dofs().equation(2 * n + 1);
     const Real depth = 3 - from.norm();
     if (depth > 0) expected += 10 * (stiffness(x, x) + stiffness(y, y)) / 2 * depth * -from[1] / from.norm();

@@ -176,7 +176,7 @@ std::unique_ptr<Problem<Model>> scene(Index cells = 6, Real lost_from = 2) {
     j2(p.material.law);
   else
     j2(p.material);
-  if constexpr (has_inertia<Model>) p.time_integration.density = 0.5;
+  if constexpr (has_inertia<Model>) p.density = 0.5;
   if constexpr (requires { Model::Friction::per_contact; }) {
     std::get<0>(p.contacts).push_back(roller<Model, Coulomb>("top", lost_from));
     std::get<1>(p.contacts).push_back(roller<Model, Frictionless>("right", lost_from));
@@ -277,7 +277,7 @@ TEST_CASE("multipliers and iterated bounds continue bit for bit") {
   continues_bit_for_bit<Multipliers>(automatic, {2, 8});
   continues_bit_for_bit<Multipliers>(equal, {13});
 }
-TEST_CASE("a law a contact in space continues bit for bit") {
+TEST_CASE("contacts in space with a law each continue bit for bit") {
   continues_bit_for_bit<Space>(automatic, {4, 9});
 }
 
@@ -356,7 +356,7 @@ struct Saved {
   }
 };
 
-TEST_CASE("damaged files are refused, and the problem is left alone") {
+TEST_CASE("a damaged restart file is refused, and the problem stays as it was") {
   Saved s;
   const std::string whole = read(s.file);
   CHECK(whole.size() > 2000);
@@ -451,7 +451,7 @@ TEST_CASE("the checksum is that of zlib") {
   CHECK(io::detail::crc("", 0) == 0);
 }
 
-TEST_CASE("a restart file takes no other one's place") {
+TEST_CASE("a restart file replaces nothing that is no regular file") {
   Saved s;
   const auto link = s.folder.path / "link", device = s.folder.path / "device";
   fs::create_symlink("/dev/null", device);
@@ -467,7 +467,7 @@ TEST_CASE("a restart file takes no other one's place") {
   CHECK(read(s.file) != old);
 }
 
-TEST_CASE("files for ParaView are XML with decimal points, and whole") {
+TEST_CASE("files for ParaView are complete XML with decimal points in every locale") {
   Saved s;
   auto large = scene<Plane>(600);  // 1803 nodes: there are thousands to be parted
   const auto points = s.folder.path / "a < b & \"c\"_0000.vtu", collection = s.folder.path / "a < b & \"c\".pvd";
@@ -521,7 +521,7 @@ TEST_CASE("files for ParaView are XML with decimal points, and whole") {
   CHECK(std::distance(fs::directory_iterator(s.folder.path), {}) == files);
 }
 
-TEST_CASE("a mesh of blocks that were not joined is warned of") {
+TEST_CASE("blocks that were not joined give a warning") {
   Problem<Plane>::Parameters p;
   p.body = mesh::rectangle({.size = {2, 1}, .cells = {2, 1}});
   p.material = {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 50}};
@@ -542,7 +542,7 @@ TEST_CASE("a mesh of blocks that were not joined is warned of") {
   CHECK(warnings[0].text.starts_with("2 nodes of the mesh lie where another one does, nodes "));
 }
 
-TEST_CASE("files of another run are refused") {
+TEST_CASE("restart files of another run are refused") {
   Saved s;
   auto fine = scene<Plane>(8);
   auto on_fine = fine->march(equal);
@@ -572,7 +572,7 @@ TEST_CASE("files of another run are refused") {
   CHECK(kept == std::vector<Real>{1, 2});
 }
 
-TEST_CASE("a file that cannot be written leaves the old one") {
+TEST_CASE("a restart file that cannot be written leaves the old one") {
   Saved s;
   const std::string old = read(s.file);
   CHECK_THROWS_WITH_AS(io::save(s.folder.path / "no" / "folder", s.march), doctest::Contains("cannot write"),

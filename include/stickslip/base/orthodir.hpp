@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/base/types.hpp>
+#include <stickslip/base/vector_space.hpp>
 
 #include <cstddef>
 #include <deque>
@@ -12,10 +13,12 @@ namespace stickslip {
 /// combinations of the steps tried, as in GMRES, in the order of ORTHODIR (Young & Jea 1980), which a residual that
 /// does not fall cannot break down (theory.md, section 6.5). The caller makes a step of `next()` by the near solver,
 /// and tells `add` what A makes of it.
+template <VectorSpace Space = SerialSpace>
 class Orthodir {
  public:
   /// Forgets the vectors of another size; they are made again when they are needed for the first time.
-  void resize(Index size) {
+  void resize(Index size, const Space& space = {}) {
+    space_ = space;
     size_ = size;
     count_ = 0;
     steps_.clear();
@@ -37,18 +40,18 @@ class Orthodir {
   /// Takes in `step()` and `response()`; false if the response is no new direction.
   bool add() {
     Field &z = step(), &w = response();
-    const Real size = w.norm();
+    const Real size = space_.norm(w);
     for (int sweep = 0; sweep < 2; ++sweep)  // once more, against what round-off leaves
       for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
-        const Real share = responses_[i].dot(w);
+        const Real share = space_.dot(responses_[i], w);
         w -= share * responses_[i];
         z -= share * steps_[i];
       }
-    const Real left = w.norm();
+    const Real left = space_.norm(w);
     if (!(left > 1e-14 * size)) return false;
     w /= left;
     z /= left;
-    const Real share = w.dot(residual_);
+    const Real share = space_.dot(w, residual_);
     residual_ -= share * w;
     solution_ += share * z;
     ++count_;
@@ -63,6 +66,7 @@ class Orthodir {
     return list[static_cast<std::size_t>(count_)];
   }
 
+  [[no_unique_address]] Space space_{};
   Index size_ = 0, count_ = 0;
   std::deque<Field> steps_, responses_;  // the responses orthonormal; references stay good as more come
   Field residual_, solution_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/base/types.hpp>
+#include <stickslip/base/vector_space.hpp>
 
 #include <algorithm>
 
@@ -13,10 +14,14 @@ struct Relaxation {
   Real omega = 1;
 
   /// Takes the change that the last iterate asks for. Allocates at the first one only.
-  void next(const Field& change) {
+  template <VectorSpace Space = SerialSpace>
+  void next(const Field& change, const Space& space = {}) {
     if (known_) {
-      const Real square = (change - before_).squaredNorm();
-      if (square > 0) omega = std::clamp(-omega * before_.dot(change - before_) / square, Real(0.05), Real(2));
+      difference_ = change - before_;
+      const Real square = space.dot(difference_, difference_);
+      if (square > 0) omega = std::clamp(-omega * space.dot(before_, difference_) / square, Real(0.05), Real(2));
+    } else {
+      difference_.resize(change.size());
     }
     before_ = change;
     known_ = true;
@@ -30,7 +35,7 @@ struct Relaxation {
   bool backtrack() { return (omega *= 0.25) > 1e-3; }
 
  private:
-  Field before_;
+  Field before_, difference_;
   bool known_ = false;
 };
 

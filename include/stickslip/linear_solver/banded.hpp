@@ -24,6 +24,11 @@ void dgbtrs_(const char* trans, const int* n, const int* kl, const int* ku, cons
 
 namespace stickslip {
 
+/// Parameters of the banded solvers.
+struct BandedParameters {
+  bool reorder = true;  ///< look for a numbering of smaller bandwidth; else the mesh's is taken
+};
+
 namespace detail {
 
 /// New number of every equation, and the resulting half bandwidth.
@@ -32,8 +37,8 @@ struct BandOrdering {
   Index half_bandwidth = 0;
 };
 
-/// The given numbering or reverse Cuthill-McKee, whichever has the smaller bandwidth.
-inline BandOrdering band_ordering(const SparseView& m) {
+/// The given numbering or, where `reorder`, reverse Cuthill-McKee if it has the smaller bandwidth.
+inline BandOrdering band_ordering(const SparseView& m, bool reorder) {
   const auto bandwidth = [&](const std::vector<Index>& place) {
     Index widest = 0;
     for (Index j = 0; j < m.size; ++j)
@@ -45,6 +50,7 @@ inline BandOrdering band_ordering(const SparseView& m) {
   BandOrdering natural;
   for (Index i = 0; i < m.size; ++i) natural.place.push_back(i);
   natural.half_bandwidth = bandwidth(natural.place);
+  if (!reorder) return natural;
 
   using Graph = boost::adjacency_list<
       boost::vecS, boost::vecS, boost::undirectedS,
@@ -110,9 +116,12 @@ class BandedCholesky {
   static constexpr Symmetry accepts = Symmetry::symmetric;
   static constexpr Symmetry storage = Symmetry::symmetric;
   static constexpr bool direct = true;
+  using Parameters = BandedParameters;
+
+  explicit BandedCholesky(const Parameters& parameters = {}) : parameters_(parameters) {}
 
   void analyze(const SparseView& pattern) {
-    order_ = detail::band_ordering(pattern);
+    order_ = detail::band_ordering(pattern, parameters_.reorder);
     n_ = pattern.size;
     k_ = order_.half_bandwidth;
     band_.assign(static_cast<std::size_t>(k_ + 1) * static_cast<std::size_t>(n_), 0.0);
@@ -197,6 +206,7 @@ class BandedCholesky {
         visit(order_.place[static_cast<std::size_t>(m.row[e])], order_.place[static_cast<std::size_t>(j)], e);
   }
 
+  BandedParameters parameters_;
   detail::BandOrdering order_;
   Index n_ = 0, k_ = 0, negative_pivots_ = 0;
   std::vector<Real> band_, permuted_;
@@ -212,9 +222,12 @@ class BandedLu {
   static constexpr Symmetry accepts = Symmetry::general;
   static constexpr Symmetry storage = Symmetry::general;
   static constexpr bool direct = true;
+  using Parameters = BandedParameters;
+
+  explicit BandedLu(const Parameters& parameters = {}) : parameters_(parameters) {}
 
   void analyze(const SparseView& pattern) {
-    order_ = detail::band_ordering(pattern);
+    order_ = detail::band_ordering(pattern, parameters_.reorder);
     lu_.resize(pattern.size, order_.half_bandwidth);
     permuted_.resize(static_cast<std::size_t>(pattern.size));
   }
@@ -240,6 +253,7 @@ class BandedLu {
   std::size_t factor_bytes() const { return lu_.bytes(); }
 
  private:
+  BandedParameters parameters_;
   detail::BandOrdering order_;
   detail::BandLu lu_;
   std::vector<Real> permuted_;

@@ -21,8 +21,9 @@ class Bicgstab {
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::general;
   static constexpr Symmetry storage = Symmetry::general;
+  using Parameters = IterationLimits;
 
-  IterationLimits limits;
+  explicit Bicgstab(const Parameters& limits = {}) : limits_(limits) { limits.validate("Bicgstab"); }
 
   void analyze(const SparseView& pattern) {
     refinement_.resize(pattern.size);
@@ -67,10 +68,11 @@ class Bicgstab {
   }
 
   bool converge(const Real* right_hand_side, Real* solution) {
-    solver_.setTolerance(limits.tolerance);
-    solver_.setMaxIterations(tight_ ? limits.iterations : std::min<Index>(limits.iterations, 300));
+    solver_.setTolerance(limits_.tolerance);
+    solver_.setMaxIterations(tight_ ? limits_.iterations : std::min<Index>(limits_.iterations, 300));
     return refinement_.solve(
-        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); }, limits.tolerance);
+        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); },
+        limits_.tolerance);
   }
   bool iterate(const Real* right_hand_side, Real* solution) {
     Eigen::Map<Field>(solution, matrix_.size) = solver_.solve(Eigen::Map<const Field>(right_hand_side, matrix_.size));
@@ -84,6 +86,7 @@ class Bicgstab {
   };
 
   Eigen::BiCGSTAB<EigenMatrix, IncompleteLu> solver_;
+  IterationLimits limits_;
   SparseView matrix_{};
   Refinement refinement_;
   Index iterations_ = 0;

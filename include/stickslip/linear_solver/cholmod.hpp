@@ -11,10 +11,23 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <stdexcept>
 
 namespace stickslip {
 
-/// CHOLMOD's sparse Cholesky (supernodal or simplicial, at CHOLMOD's choice). An indefinite matrix falls back to its
+/// Parameters of Cholmod.
+struct CholmodParameters {
+  /// Order of the elimination: CHOLMOD's choice of AMD and, where that fills in much, METIS; one of them; that of the
+  /// mesh.
+  enum class Ordering { best, amd, metis, natural };
+  /// Kind of the factor: CHOLMOD's choice; by single columns, for matrices of little fill; in dense blocks.
+  enum class Factor { best, simplicial, supernodal };
+
+  Ordering ordering = Ordering::best;
+  Factor factor = Factor::best;
+};
+
+/// CHOLMOD's sparse Cholesky. An indefinite matrix falls back to its
 /// simplicial L D L^T, which does not pivot: `solve` then refines the solution and fails if its residual stays large.
 /// Link stickslip::cholmod; note CHOLMOD's licence (LGPL, the supernodal part GPL).
 class Cholmod {
@@ -24,8 +37,17 @@ class Cholmod {
   static constexpr Symmetry storage = Symmetry::symmetric;
   static constexpr bool direct = true;
 
-  Cholmod() : common_(std::make_unique<cholmod_common>()) {
+  using Parameters = CholmodParameters;
+
+  explicit Cholmod(const Parameters& parameters = {})
+      : parameters_(parameters), common_(std::make_unique<cholmod_common>()) {
     cholmod_start(common_.get());
+    if (parameters.ordering != Parameters::Ordering::best) {
+      common_->nmethods = 1;
+      common_->method[0].ordering = parameters.ordering == Parameters::Ordering::amd     ? CHOLMOD_AMD
+                                    : parameters.ordering == Parameters::Ordering::metis ? CHOLMOD_METIS
+                                                                                         : CHOLMOD_NATURAL;
+    }
     common_->print = 0;
     common_->error_handler = nullptr;
   }
@@ -45,9 +67,13 @@ class Cholmod {
     cholmod_free_factor(&indefinite_factor_, common_.get());
     cholmod_sparse a = wrap(pattern);
     a.xtype = CHOLMOD_PATTERN;
-    common_->supernodal = CHOLMOD_AUTO;
+    common_->supernodal = parameters_.factor == Parameters::Factor::best         ? CHOLMOD_AUTO
+                          : parameters_.factor == Parameters::Factor::simplicial ? CHOLMOD_SIMPLICIAL
+                                                                                 : CHOLMOD_SUPERNODAL;
     factor_ = cholmod_analyze(&a, common_.get());
     enough_memory();
+    if (!factor_ && parameters_.ordering == Parameters::Ordering::metis)
+      throw std::invalid_argument("Cholmod: the ordering metis is not in this build of CHOLMOD");
     refinement_.resize(pattern.size);
   }
 
@@ -145,6 +171,7 @@ class Cholmod {
     return true;
   }
 
+  CholmodParameters parameters_;
   std::unique_ptr<cholmod_common> common_;
   cholmod_factor* factor_ = nullptr;
   cholmod_factor* indefinite_factor_ = nullptr;

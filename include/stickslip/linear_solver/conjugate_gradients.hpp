@@ -17,8 +17,11 @@ class ConjugateGradients {
   using Role = role::LinearSolver;
   static constexpr Symmetry accepts = Symmetry::symmetric;
   static constexpr Symmetry storage = Symmetry::symmetric;
+  using Parameters = IterationLimits;
 
-  IterationLimits limits;
+  explicit ConjugateGradients(const Parameters& limits = {}) : limits_(limits) {
+    limits.validate("ConjugateGradients");
+  }
 
   void analyze(const SparseView& pattern) {
     refinement_.resize(pattern.size);
@@ -41,7 +44,8 @@ class ConjugateGradients {
   bool solve(const Real* right_hand_side, Real* solution) {
     iterations_ = 0;
     return refinement_.solve(
-        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); }, limits.tolerance);
+        matrix_, right_hand_side, solution, [this](const Real* b, Real* x) { return iterate(b, x); },
+        limits_.tolerance);
   }
 
   /// Iterations of the last `solve`.
@@ -54,10 +58,10 @@ class ConjugateGradients {
     x.setZero();
     residual_ = Eigen::Map<const Field>(right_hand_side, matrix_.size);
     direction_.setZero();
-    const Real aim = limits.tolerance * residual_.norm();
+    const Real aim = limits_.tolerance * residual_.norm();
     Real energy = 1;  // any nonzero value: the first direction has no predecessor
     while (!(residual_.norm() <= aim)) {
-      if (iterations_++ == limits.iterations) return false;
+      if (iterations_++ == limits_.iterations) return false;
       preconditioned_ = preconditioner_.solve(residual_);
       const Real last = energy;
       energy = residual_.dot(preconditioned_);
@@ -73,6 +77,7 @@ class ConjugateGradients {
 
   // Without reordering: the factor keeps no more entries than the matrix has, and the numbering of a mesh suits it.
   Eigen::IncompleteCholesky<Real, Eigen::Lower, Eigen::NaturalOrdering<Index>> preconditioner_;
+  IterationLimits limits_;
   SparseView matrix_{};
   Field residual_, preconditioned_, direction_, image_;
   Refinement refinement_;

@@ -21,8 +21,12 @@ class Corrected {
   static constexpr Symmetry storage = Symmetry::symmetric;
   static constexpr bool corrects = true;
   static constexpr bool direct = is_direct<Symmetric>;
+  using Parameters = SolverParameters<Symmetric>;
   static constexpr Real tolerance = 1e-6;  ///< of the relative residual
   static constexpr Index most = 60;        ///< largest number of iterations of a solution
+
+  Corrected() = default;
+  explicit Corrected(const Parameters& parameters) : solver_(make_solver<Symmetric>(parameters)) {}
 
   void analyze(const SparseView& pattern) {
     solver_.analyze(pattern);
@@ -83,7 +87,7 @@ class Corrected {
   Symmetric solver_;
   NodeBlocks corrections_{};
   Index size_ = 0, inner_iterations_ = 0;
-  Orthodir krylov_;
+  Orthodir<> krylov_;
 };
 
 }  // namespace stickslip

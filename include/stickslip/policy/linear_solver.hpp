@@ -38,9 +38,40 @@ enum class Factorization {
   failed,      ///< no factor exists: singular to working precision
 };
 
+/// Parameters of a solver that has none.
+struct NoSolverParameters {};
+
+namespace detail {
+template <class L>
+struct ParametersOfSolver {
+  using type = NoSolverParameters;
+};
+template <class L>
+  requires requires {
+    typename L::Parameters;
+  }
+struct ParametersOfSolver<L> {
+  using type = typename L::Parameters;
+};
+}  // namespace detail
+
+/// What a solver is made from: its nested aggregate `Parameters`, or nothing.
+template <class L>
+using SolverParameters = typename detail::ParametersOfSolver<L>::type;
+
+/// The solver of these parameters.
+template <class L>
+L make_solver([[maybe_unused]] const SolverParameters<L>& parameters) {
+  if constexpr (std::same_as<SolverParameters<L>, NoSolverParameters>)
+    return L();
+  else
+    return L(parameters);
+}
+
 /// A direct or iterative solver of the linear systems of Newton's method. `analyze` sees the pattern once and stands
 /// while the pattern does; it and `factorize` throw std::bad_alloc where memory does not suffice. `accepts` is the
-/// widest symmetry of a system that it can solve, `storage` that of the matrices it wants to be handed.
+/// widest symmetry of a system that it can solve, `storage` that of the matrices it wants to be handed. It is made from
+/// its SolverParameters, and throws std::invalid_argument there if they are none that it can take.
 /// docs/policies.md, section Linear solver.
 template <class L>
 concept LinearSolverPolicy = requires(L& solver, const SparseView& matrix, const Real* right_hand_side,
@@ -48,6 +79,9 @@ concept LinearSolverPolicy = requires(L& solver, const SparseView& matrix, const
   requires std::same_as<typename L::Role, role::LinearSolver>;
   requires std::same_as<decltype(L::accepts), const Symmetry>;
   requires std::same_as<decltype(L::storage), const Symmetry>;
+  requires std::same_as<SolverParameters<L>, NoSolverParameters> || std::constructible_from < L,
+      const SolverParameters<L>
+  & > ;
   {solver.analyze(matrix)};
   { solver.factorize(matrix) } -> std::same_as<Factorization>;
   { solver.solve(right_hand_side, solution) } -> std::same_as<bool>;

@@ -45,15 +45,23 @@ struct Energies {
   }
 };
 
-/// Whether a model's material and enforcement tell their energies; those of a user may not.
-template <class Model>
-concept TellsEnergies =
-    requires(const typename Model::Material& material, const Tensor<Real, typename Model::Kinematics::TensorPattern>& F,
-             const typename Model::Material::template State<Real, typename Model::Kinematics::TensorPattern>& state) {
+namespace detail {
+template <class Material, class TensorPattern>
+inline constexpr bool tells_energy = requires(const Material& material, const Tensor<Real, TensorPattern>& F,
+                                              const typename Material::template State<Real, TensorPattern>& state) {
   material.energy(F, state);
+};
+template <class TensorPattern, class... Types>
+constexpr bool all_tell_energy(BodyTypes<Types...>) {
+  return (tells_energy<typename Types::Material, TensorPattern> && ...);
 }
-&&(!has_contact<Model> ||
-   requires(const typename Model::Enforcement& enforcement) { enforcement.energy(Real(), Real()); });
+}  // namespace detail
+
+/// Whether a model's materials and enforcement tell their energies; those of a user may not.
+template <class Model>
+concept TellsEnergies = detail::all_tell_energy<typename Model::Kinematics::TensorPattern>(BodyTypesOf<Model>{}) &&
+    (!has_contact<Model> ||
+     requires(const typename Model::Enforcement& enforcement) { enforcement.energy(Real(), Real()); });
 
 /// The books of a run of a scene (theory.md, eq. 7.7): made before its first step, updated after every step. They cost
 /// a pass over the points a step.
@@ -83,6 +91,7 @@ class EnergyGain {
   /// Books the step that has just been taken.
   void update(const StepReport& step) {
     const auto& system = scene_.system();
+    const auto& space = system.space();
     const Field du = scene_.displacement() - u_;
     Real old_share = 0.5;  // weight of the smooth forces at the start of the step
     if constexpr (has_inertia<Model>) old_share = scene_.inertia().scheme().alpha_f;
@@ -99,21 +108,22 @@ class EnergyGain {
       if (system.dofs().equation(c) == IndexMap::constrained) continue;
       residual_work += du[c] * std::exchange(reaction[c], 0.0);
     }
-    const Real by_tools = tool_work(du, step.time - step.dt, step.time);
-    Real external = du.dot(mean(external_, system.forces().external)) + by_tools;
+    residual_work = space.sum(residual_work);
+    const Real by_tools = space.sum(tool_work(du, step.time - step.dt, step.time));
+    Real external = space.dot(du, mean(external_, system.forces().external)) + by_tools;
     Real algorithmic = 0;
     if constexpr (has_inertia<Model>) {
       // All forces that the balance averages, those of inertia among them, do the work of supports, loads and residual.
-      external += du.dot(reaction);
+      external += space.dot(du, reaction);
       algorithmic = external + residual_work;
       if constexpr (has_damping<Model>) {
         energies_.damping += scene_.inertia().dissipated();
         algorithmic -= scene_.inertia().dissipated();
       }
     } else {
-      external += du.dot(mean(before_.reaction, reaction));
-      algorithmic = du.dot(mean(before_.internal, system.forces().internal)) +
-                    du.dot(mean(before_.contact, system.forces().contact)) + by_tools;
+      external += space.dot(du, mean(before_.reaction, reaction));
+      algorithmic = space.dot(du, mean(before_.internal, system.forces().internal)) +
+                    space.dot(du, mean(before_.contact, system.forces().contact)) + by_tools;
       before_.internal = system.forces().internal;
       before_.contact = system.forces().contact;
       before_.reaction = reaction;
@@ -167,15 +177,19 @@ class EnergyGain {
 
   // Energies that are functions of the state.
   void read_state() {
-    const auto& material = scene_.body().material();
     energies_.elastic = energies_.plastic = energies_.penalty = 0;
-    scene_.body().visit_points(scene_.displacement(), [&](Index, int, const auto& F, const auto& state, Real weight) {
-      energies_.elastic += weight * material.energy(F, state);
-      if constexpr (requires { material.plastic_work(state); })
-        energies_.plastic += weight * material.plastic_work(state);
+    scene_.bodies().for_each([&](const auto& body) {
+      const auto& material = body.material();
+      body.visit_points(scene_.displacement(), [&](Index, int, const auto& F, const auto& state, Real weight) {
+        energies_.elastic += weight * material.energy(F, state);
+        if constexpr (requires { material.plastic_work(state); })
+          energies_.plastic += weight * material.plastic_work(state);
+      });
     });
     if constexpr (has_contact<Model>)
       scene_.visit_contacts([&](const auto& pair) { energies_.penalty += pair.stored_energy(); });
+    const auto& space = scene_.system().space();
+    for (Real* energy : {&energies_.elastic, &energies_.plastic, &energies_.penalty}) *energy = space.sum(*energy);
     if constexpr (has_inertia<Model>) energies_.kinetic = scene_.inertia().kinetic_energy();
   }
 
@@ -190,7 +204,7 @@ class EnergyGain {
         along.take(pair.motion(), t0, t1);
         for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
           const Index n = pair.nodes()[k];
-          const Vec<Real, dim> x = scene_.body().mesh().nodes[static_cast<std::size_t>(n)] + scene_.displacement(n);
+          const Vec<Real, dim> x = scene_.bodies().positions()[static_cast<std::size_t>(n)] + scene_.displacement(n);
           const Vec<Real, dim> own = at_node<dim>(du, n);
           Vec<Real, dim> force = pair.states()[k].force;
           if constexpr (with_forces) {

@@ -23,8 +23,8 @@ class FactorDigits {
   }
 
   /// Estimate of the condition; infinite where the solution fails. `solve(b, x)` returns false if it does.
-  template <class Solve>
-  Real condition(const SparseView& matrix, Solve&& solve) {
+  template <VectorSpace Space, class Solve>
+  Real condition(const SparseView& matrix, const Space& space, Solve&& solve) {
     scale_.setZero();
     for (Index j = 0; j < matrix.size; ++j)
       for (Index k = matrix.column_start[j]; k < matrix.column_start[j + 1]; ++k)
@@ -36,7 +36,8 @@ class FactorDigits {
       right_hand_side_[i] = random >> 31 ? scale_[i] : -scale_[i];
     }
     if (!solve(right_hand_side_, solution_)) return std::numeric_limits<Real>::infinity();
-    const Real size = scale_.cwiseProduct(solution_).norm();
+    scale_.array() *= solution_.array();
+    const Real size = space.norm(scale_);
     return std::isfinite(size) ? size : std::numeric_limits<Real>::infinity();
   }
 

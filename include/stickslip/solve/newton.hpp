@@ -9,6 +9,7 @@
 #include <stickslip/solve/system.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <type_traits>
@@ -65,10 +66,11 @@ struct WorkCounts {
 /// Newton's method on the displacements and the condensed unknowns, with a line search. Work space and the solver's
 /// analysis outlast the calls; nothing is allocated in the loop. With an inexact tangent, what it lacks is found out
 /// where its step does not do (theory.md, section 5.9).
-template <class Solver, bool inexact_tangent = false>
+template <class Solver, bool inexact_tangent = false, VectorSpace Space = SerialSpace>
 class Newton {
  public:
-  explicit Newton(const NewtonOptions& chosen = {}) : options(chosen) {}
+  explicit Newton(const NewtonOptions& chosen = {}, const SolverParameters<Solver>& solver = {})
+      : options(chosen), solver_(make_solver<Solver>(solver)) {}
 
   /// Whether the solver counts negative pivots.
   static constexpr bool tells_pivots = requires(const Solver& solver) { solver.negative_pivots(); };
@@ -86,6 +88,7 @@ class Newton {
   template <class Iterate>
   NewtonReport solve(Iterate& iterate, Field& u, Real time, Real dt, const Field* driven = nullptr) {
     auto& system = iterate.system();
+    const Space& space = system.space();
     NewtonReport report;
     prepare(system);
     last_residual_ = 0;
@@ -95,7 +98,7 @@ class Newton {
     Index idle = 0;                                      // iterations that have not halved it
     for (;;) {
       const Real norm = system.forces().norm;
-      const Real scale = system.forces().scale();
+      const Real scale = system.forces().scale(space);
       report.residual = scale > 0 ? norm / scale : 0;
       if (!driven) {
         if (norm <= options.tolerance * scale) {
@@ -183,7 +186,7 @@ class Newton {
       if (failure || stalls > 1) {
         const Real left = system.forces().norm;
         if (!failure && left <= system.roundoff(u)) {  // it has come to its floor
-          if (system.forces().scale() > 0) report.residual = left / system.forces().scale();
+          if (const Real now = system.forces().scale(space); now > 0) report.residual = left / now;
           return report;
         }
         report.failure = failure ? failure : Failure{FailureCause::stalled, {}};
@@ -211,7 +214,7 @@ class Newton {
     step_.setZero(system.dofs().unknowns());
     start_.setZero(system.dofs().components());
     change_ = start_;
-    if constexpr (inexact_tangent) probes_.krylov.resize(system.dofs().unknowns());
+    if constexpr (inexact_tangent) probes_.krylov.resize(system.dofs().unknowns(), system.space());
     if constexpr (is_direct<Solver>) digits_.resize(system.dofs().unknowns());
     analyzed_ = system.pattern_revision();
   }
@@ -238,8 +241,9 @@ class Newton {
   // stress, and would never be in balance but for its round-off.
   template <class System>
   static bool only_moves(const System& system, Real roundoff) {
-    return contact_summary(system.pairs()).touching == 0 && system.forces().external.isZero(0) &&
-           system.forces().internal.norm() <= roundoff;
+    const Space& space = system.space();
+    return space.sum(contact_summary(system.pairs()).touching) == 0 && space.max(system.forces().external) == 0 &&
+           space.norm(system.forces().internal) <= roundoff;
   }
 
   // step_ = K^-1 R.
@@ -260,16 +264,17 @@ class Newton {
     if constexpr (is_direct<Solver>)
       if (!std::exchange(judged_, true)) {
         const Stopwatch watch(system.timings.solve);
-        const Real condition =
-            digits_.condition(system.tangent(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
+        const Real condition = digits_.condition(
+            system.tangent(), system.space(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
         if (condition > FactorDigits::limit) return {FailureCause::singular_matrix, {}};
       }
     const Index corrections = corrections_so_far();
     const bool solved = substitute(system, system.forces().residual, step_);
     counts.corrections += corrections_so_far() - corrections;
-    if (!solved || !step_.allFinite()) return {FailureCause::singular_matrix, {}};
+    const Space& space = system.space();
+    if (!solved || !std::isfinite(space.norm(step_))) return {FailureCause::singular_matrix, {}};
     // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
-    if (step_.lpNorm<Eigen::Infinity>() > 1e6 * system.body().extent()) return {FailureCause::singular_matrix, {}};
+    if (space.max(step_) > 1e6 * system.bodies().extent()) return {FailureCause::singular_matrix, {}};
     return {};
   }
 
@@ -293,22 +298,24 @@ class Newton {
     constexpr Real tolerance = 1e-3, length = 1e-8;
     constexpr Index most = 30;
     auto& system = iterate.system();
-    Orthodir& krylov = probes_.krylov;
+    const Space& space = system.space();
+    Orthodir<Space>& krylov = probes_.krylov;
     u = start_;
     iterate.set_step(0);
     change_.setZero();
     iterate.predict(change_, 0);  // what the system notes of an iteration goes back there as well
     iterate.set_step(0);
-    if (const Failure f = evaluate(iterate, u, time, dt, Want::residual)) return f;
+    // With the tangent, which the search has overwritten: solvers iterate on it, or refine their solutions.
+    if (const Failure f = evaluate(iterate, u, time, dt, Want::tangent)) return f;
     probes_.residual = system.forces().residual;
     krylov.begin(probes_.residual);
-    while (krylov.count() < most && krylov.residual().norm() > tolerance * probes_.residual.norm()) {
+    while (krylov.count() < most && space.norm(krylov.residual()) > tolerance * space.norm(probes_.residual)) {
       Field& z = krylov.step();
       if (krylov.count() == 0)
         z = step_;
       else if (!substitute(system, krylov.next(), z))
         return {FailureCause::singular_matrix, {}};
-      const Real part = length * system.body().extent() / z.template lpNorm<Eigen::Infinity>();
+      const Real part = length * system.bodies().extent() / space.max(z);
       change_.setZero();
       system.dofs().scatter_add(-part, z, change_);  // the way the step goes: there may be a kink
       iterate.predict(change_, 0);
@@ -338,7 +345,7 @@ class Newton {
   Solver solver_;
   Field step_, start_, change_;
   struct Probes {
-    Orthodir krylov;
+    Orthodir<Space> krylov;
     Field residual;
   };
   [[no_unique_address]] StoredIf<inexact_tangent, Probes, Solver> probes_;

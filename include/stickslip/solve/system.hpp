@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/body/body.hpp>
+#include <stickslip/base/vector_space.hpp>
+#include <stickslip/body/bodies.hpp>
 #include <stickslip/body/inertia_forces.hpp>
 #include <stickslip/contact/contact_pair.hpp>
 #include <stickslip/dofs/prescribed.hpp>
@@ -28,37 +29,44 @@ struct NodalForces {
 
   /// What the residual is measured against: the largest of the norms of the internal, contact and external forces,
   /// those at supports included (theory.md, eq. 6.2).
-  Real scale() const { return std::max({internal.norm(), contact.norm(), external.norm()}); }
+  template <VectorSpace Space>
+  Real scale(const Space& space) const {
+    return std::max({space.norm(internal), space.norm(contact), space.norm(external)});
+  }
 };
 
 /// The discrete balance of a scene: residual and tangent as a function of the nodal displacements (theory.md, eq. 1.1),
-/// the sum of its terms: body, contact pairs and inertia. What a model does not have is an empty term.
+/// the sum of its terms: bodies, contact pairs and inertia. What a model does not have is an empty term.
 template <class Model>
 class System {
   static_assert(CheckModel<Model>::ok);
 
  public:
-  using BodyType = Body<Model>;
-  using Matrix = typename BodyType::Matrix;
+  using BodiesType = Bodies<Model>;
+  using Matrix = typename BodiesType::Matrix;
   using Pairs = StoredIf<has_contact<Model>, ContactPairs<Model>, Matrix>;
   using Inertia = InertiaForces<Model>;
+  using Space = SerialSpace;
   static constexpr int dim = Model::Kinematics::dim;
   static constexpr bool weighs_body = has_inertia<Model> && (has_contact<Model> || has_damping<Model>);
   class Iterate;
 
   /// `revision` tells systems of one scene apart, for those who keep what they made of its pattern.
-  System(BodyType& body, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
+  System(BodiesType& bodies, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
          const std::vector<SideValue>& loads, Index revision = 1)
-      : body_(body), pairs_(pairs), inertia_(inertia), prescribed_(dim, body.extent()), pattern_revision_(revision) {
-    for (const SideValue& d : driven) prescribed_.drive(d, body.mesh().side(d.side).nodes);
-    for (const SideValue& l : loads)
-      prescribed_.load(l, body.mesh().side(l.side).nodes, nodal_areas(body.mesh(), body.kinematics(), l.side));
-    const Index components = body.mesh().node_count() * dim;
+      : bodies_(bodies),
+        pairs_(pairs),
+        inertia_(inertia),
+        prescribed_(dim, bodies.extent()),
+        pattern_revision_(revision) {
+    for (const SideValue& d : driven) prescribed_.drive(d, bodies.side_nodes(d.side));
+    for (const SideValue& l : loads) prescribed_.load(l, bodies.side_nodes(l.side), bodies.side_areas(l.side));
+    const Index components = bodies.node_count() * dim;
     dofs_ = prescribed_.unknowns_of(components);
-    SparsityPattern pattern(dofs_, BodyType::storage);
-    body_.couple(pattern);
+    SparsityPattern pattern(dofs_, matrix_storage<Model>);
+    bodies_.couple(pattern);
     matrix_ = Matrix(pattern);
-    body_.connect(dofs_, matrix_);
+    bodies_.connect(dofs_, matrix_);
     std::size_t nodes = 0;
     for_each_contact(pairs_, [&](auto& pair) {
       pair.connect(dofs_, matrix_);
@@ -74,6 +82,8 @@ class System {
   }
 
   const IndexMap& dofs() const { return dofs_; }
+  /// Takes the norms and products of vectors by component or unknown, for all who solve for them.
+  const Space& space() const { return space_; }
   /// The matrix as it stands: its pattern, and the tangent of the last evaluation that was asked for one.
   SparseView matrix() const {
     SparseView view = matrix_.view();
@@ -92,7 +102,7 @@ class System {
   Index pattern_revision() const { return pattern_revision_; }
   /// Supports and loads.
   const Prescribed& prescribed() const { return prescribed_; }
-  BodyType& body() { return body_; }
+  BodiesType& bodies() { return bodies_; }
   Pairs& pairs() { return pairs_; }
   const Pairs& pairs() const { return pairs_; }
 
@@ -119,10 +129,10 @@ class System {
   /// Bound of the residual that round-off alone leaves: the largest stiffness of the body and of sticking times the
   /// extent of the coordinates (theory.md, eq. 6.3).
   Real roundoff(const Field& u) const {
-    const Real moved = u.lpNorm<Eigen::Infinity>(), extent = body_.extent();
+    const Real moved = space_.max(u), extent = bodies_.extent();
     Real force = stiffness_ * (exact_strains && !has_contact<Model> ? moved : moved + extent);
     if (has_contact<Model>) force += stick_stiffness_ * (moved + extent);
-    return 16 * std::numeric_limits<Real>::epsilon() * force * std::sqrt(Real(dofs_.unknowns()));
+    return 16 * std::numeric_limits<Real>::epsilon() * force * std::sqrt(space_.sum(Real(dofs_.unknowns())));
   }
 
   /// Largest entry of the body's tangent at the displacements u [force / length]; 0 where it has none. Spoils the last
@@ -149,7 +159,7 @@ class System {
     if (const Real share = inertia_.contact_share() - 1; share != 0)  // a support takes the force of contact itself
       for (Index c = 0; c < dofs_.components(); ++c)
         if (dofs_.equation(c) == IndexMap::constrained) forces_.reaction[c] -= share * forces_.contact[c];
-    body_.commit();
+    bodies_.commit();
     for_each_contact(pairs_, [](auto& pair) { pair.commit(); });
   }
 
@@ -179,8 +189,8 @@ class System {
     has_tangent_ = evaluated_ = false;
     forces_.internal.setZero();
     matrix_.set_zero();
-    return body_.evaluate(EvaluationType{u, 0, 0, Want::tangent, nullptr, false, nullptr, matrix_, couplings_},
-                          forces_.internal);
+    return bodies_.evaluate(EvaluationType{u, 0, 0, Want::tangent, nullptr, false, nullptr, matrix_, couplings_},
+                            forces_.internal);
   }
   Failure evaluate(const EvaluationType& ev) {
     if (const Failure f = compute_penalties(ev.u, true)) return f;
@@ -196,7 +206,7 @@ class System {
       couplings_.scale(inertia_.contact_share());
     }
     dofs_.gather(forces_.balance, forces_.residual);
-    forces_.norm = forces_.residual.norm();
+    forces_.norm = space_.norm(forces_.residual);
     if (!std::isfinite(forces_.norm)) return {FailureCause::not_finite, {}};
     has_tangent_ = ev.want != Want::residual;
     evaluated_ = true;
@@ -215,7 +225,7 @@ class System {
     }
     {
       const Stopwatch watch(timings.assembly);
-      if (const Failure f = body_.evaluate(ev, forces_.internal)) return f;
+      if (const Failure f = bodies_.evaluate(ev, forces_.internal)) return f;
       if (with_tangent && !measured_) measure_stiffness();
       if constexpr (weighs_body)
         if (ev.dt > 0) {
@@ -243,23 +253,23 @@ class System {
   // The stiffnesses that round-off meets, once an iteration.
   void measure_stiffness() {
     measured_ = true;
-    stiffness_ = matrix_.largest();
+    stiffness_ = space_.max(matrix_.largest());
     stick_stiffness_ = 0;
     for_each_contact(pairs_, [&](const auto& pair) {
       stick_stiffness_ = std::max(stick_stiffness_, pair.largest_stick_stiffness());
     });
+    stick_stiffness_ = space_.max(stick_stiffness_);
   }
-  // Whether the material takes strains with all their digits.
-  static constexpr bool exact_strains =
-      requires(const typename Model::Material& material,
-               const Deformation<Real, typename Model::Kinematics::TensorPattern>& deformation,
-               const typename BodyType::State& state) {
-    material.respond(deformation, state, Real(0));
-  };
+  template <class... Types>
+  static constexpr bool take_deformation(BodyTypes<Types...>) {
+    return (takes_deformation<typename Types::Material, typename Model::Kinematics::TensorPattern> && ...);
+  }
+  static constexpr bool exact_strains = take_deformation(BodyTypesOf<Model>{});
 
-  BodyType& body_;
+  BodiesType& bodies_;
   Pairs& pairs_;
   Inertia& inertia_;
+  [[no_unique_address]] Space space_{};
   IndexMap dofs_;
   Matrix matrix_;
   [[no_unique_address]] Couplings couplings_;
@@ -288,7 +298,7 @@ class System<Model>::Iterate {
   /// Begins again at the converged state's values of the condensed unknowns.
   void restart() {
     system_.measured_ = system_.with_mass_ = system_.plain_ = false;
-    system_.body_.begin_iteration();
+    system_.bodies_.begin_iteration();
     for_each_contact(system_.pairs_, [](auto& pair) { pair.begin_iteration(); });
   }
   /// The same, with nodes linearised as sticking that the last try has lost; with all of them where `sticking`.
@@ -315,12 +325,12 @@ class System<Model>::Iterate {
   /// Predicts the condensed unknowns after the change du of the displacements, with a fraction of their constraint
   /// residuals closed.
   void predict(const Field& du, Real fraction = 1) {
-    system_.body_.predict(du, fraction);
+    system_.bodies_.predict(du, fraction);
     for_each_contact(system_.pairs_, [&](auto& pair) { pair.predict(du, fraction); });
   }
   /// Takes a part of the change of the last `predict`.
   void set_step(Real length) {
-    system_.body_.set_step(length);
+    system_.bodies_.set_step(length);
     for_each_contact(system_.pairs_, [&](auto& pair) { pair.set_step(length); });
   }
   /// Keeps the multipliers and bounds that were reached; the state is to be committed.
@@ -336,11 +346,12 @@ class System<Model>::Iterate {
     const Real share = s.inertia_.contact_share();
     s.dofs_.gather(s.constraint_force_, s.open_);
     s.open_ = s.forces_.residual - share * s.open_;
-    const Real imbalance = s.open_.norm();
-    Real constraints = s.body_.constraint_merit();
+    const Real imbalance = s.space_.norm(s.open_);
+    Real constraints = s.bodies_.constraint_merit();
     if constexpr (weighs_body) constraints *= std::pow(s.inertia_.body_share(), 2);
     for_each_contact(s.pairs_, [&](const auto& pair) { constraints += pair.constraint_merit(); });
-    s.forces_.norm = std::max({s.forces_.norm, imbalance, share * s.constraint_force_.norm()});
+    constraints = s.space_.sum(constraints);
+    s.forces_.norm = std::max({s.forces_.norm, imbalance, share * s.space_.norm(s.constraint_force_)});
     merit_ = std::hypot(imbalance, share * std::sqrt(constraints));
     return {};
   }
