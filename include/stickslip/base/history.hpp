@@ -4,6 +4,7 @@
 #include <stickslip/base/archive.hpp>
 #include <stickslip/base/stored_if.hpp>
 
+#include <cassert>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -12,7 +13,7 @@
 namespace stickslip {
 
 /// Memory of many points: of the converged state, and of the trial that the last evaluation made. A trial that is not
-/// committed costs nothing to undo. An empty `T` takes no byte.
+/// committed costs nothing to undo; `commit` needs one. An empty `T` takes no byte.
 template <class T, bool stored_ = !std::is_empty_v<T>>
 class History {
  public:
@@ -39,11 +40,18 @@ class History {
       return T{};
   }
   void set_trial([[maybe_unused]] std::size_t k, [[maybe_unused]] const T& value) {
-    if constexpr (stored) trial_[k] = value;
+    if constexpr (stored) {
+      trial_[k] = value;
+      has_trial_ = true;
+    }
   }
   /// Makes the trial the converged memory.
   void commit() {
-    if constexpr (stored) std::swap(converged_, trial_);
+    if constexpr (stored) {
+      assert((has_trial_ || converged_.empty()) && "History::commit needs History::set_trial since the last commit");
+      std::swap(converged_, trial_);
+      has_trial_ = false;
+    }
   }
 
   /// The converged memory of all points.
@@ -55,6 +63,7 @@ class History {
  private:
   [[no_unique_address]] StoredIf<stored, std::vector<T>, History> converged_;
   [[no_unique_address]] StoredIf<stored, std::vector<T>, struct TrialTag> trial_;
+  [[no_unique_address]] StoredIf<stored, bool, struct HasTrialTag> has_trial_{};
 };
 
 }  // namespace stickslip

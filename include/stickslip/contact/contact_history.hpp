@@ -149,8 +149,8 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
 
   /// Makes the last evaluation's memory and forces the converged ones.
   void commit() {
-    memory_.commit();
     this->commit_record();
+    memory_.commit();
     pressures_.commit();
     measures_.keep_penalty();  // what a converged step took stays
     reset_augmentations();

@@ -66,6 +66,7 @@ class ContactPair : public ContactHistory<Model, Friction_> {
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       if (const FailureCause cause = evaluate_node(k, pose, ev, forces); cause != FailureCause::none)
         return {cause, {Location::Kind::contact_node, nodes_[k]}};
+    this->end_evaluation();
     return {};
   }
 

@@ -6,6 +6,7 @@
 #include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -92,10 +93,20 @@ class ContactRecord {
   const std::vector<ContactNodeState<dim>>& states() const { return states_.converged(); }
   /// What happened in the step that led to the converged state.
   const ContactSummary& summary() const { return summary_; }
+  /// Whether an evaluation has come to its end since the last commit: the trial state is of it.
+  bool evaluated() const { return evaluated_; }
   /// What happened in the last evaluation, of a step that may be given up.
-  const ContactSummary& trial_summary() const { return trial_summary_; }
+  const ContactSummary& trial_summary() const {
+    assert(evaluated_ && "trial_summary needs a System::evaluate without failure since the last commit");
+    return trial_summary_;
+  }
   /// Whether a node, by its place in `nodes`, touched the tool in the last evaluation.
-  bool touches(std::size_t k) const { return states_.trial(k).touching; }
+  bool touches(std::size_t k) const {
+    assert(evaluated_ && "touches needs a System::evaluate without failure since the last commit");
+    return states_.trial(k).touching;
+  }
+  /// Gives up the trial state, which another evaluation is to replace.
+  void discard_trial() { evaluated_ = false; }
   /// Total force on the tool at the converged state.
   const Vec<Real, dim>& force() const { return force_; }
 
@@ -114,6 +125,7 @@ class ContactRecord {
   }
 
   void begin_evaluation() {
+    evaluated_ = false;
     trial_summary_ = {};
     trial_force_.setZero();
   }
@@ -134,7 +146,10 @@ class ContactRecord {
     trial_summary_.dissipated += kernel.dissipated;
     trial_summary_.lag_work += kernel.lag_work;
   }
+  void end_evaluation() { evaluated_ = true; }
   void commit_record() {
+    assert(evaluated_ && "the commit of a contact needs a System::evaluate without failure since the last commit");
+    evaluated_ = false;
     states_.commit();
     summary_ = trial_summary_;
     force_ = trial_force_;
@@ -146,6 +161,9 @@ class ContactRecord {
   History<ContactNodeState<dim>> states_;
   ContactSummary summary_, trial_summary_;
   Vec<Real, dim> force_ = Vec<Real, dim>::Zero(), trial_force_ = Vec<Real, dim>::Zero();
+
+ private:
+  bool evaluated_ = false;
 };
 
 }  // namespace stickslip

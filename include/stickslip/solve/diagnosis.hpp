@@ -14,12 +14,12 @@
 
 namespace stickslip {
 
-/// Names the contacts with friction whose summary of the last evaluation passes a test.
+/// Names the contacts with friction whose summary of the last evaluation passes a test; none where that failed.
 template <class Pairs, class Test>
 std::string contacts_with(const Pairs& pairs, Test&& test) {
   std::string names;
   for_each_friction(pairs, [&](const auto& pair) {
-    if (pair.trial_summary().touching > 0 && test(pair.trial_summary()))
+    if (pair.evaluated() && pair.trial_summary().touching > 0 && test(pair.trial_summary()))
       names += (names.empty() ? "contact \"" : ", contact \"") + pair.name() + "\"";
   });
   return names;
@@ -68,7 +68,7 @@ class Diagnosis {
   /// evaluation resist. With `moved`, one that has moved so in that displacement besides: a motion that balance leaves
   /// open. -1 if there is none; see `part_name`.
   Index free_part(const Field& u, const Field* moved = nullptr) {
-    modes_.take(u, system_.dofs(), system_.matrix());
+    modes_.take(u, system_.dofs(), system_.tangent());
     for (Index part = 0; part < parts_.count(); ++part) {
       const std::vector<Field> free = modes_.zero_energy_modes(part, moved ? 10 * system_.forces().norm : 0);
       if (free.empty()) continue;

@@ -263,7 +263,7 @@ class Newton {
     if (step_.size() == 0) return {};  // nothing to solve for; the condensed unknowns close all the same
     {
       const Stopwatch watch(system.timings.factorization);
-      const Factorization f = solver_.factorize(system.matrix());
+      const Factorization f = solver_.factorize(system.tangent());
       ++counts.factorizations;
       --counts.tangents_unused;
       if (f == Factorization::indefinite) ++counts.indefinite_factorizations;
@@ -276,7 +276,7 @@ class Newton {
       if (!std::exchange(judged_, true)) {
         const Stopwatch watch(system.timings.solve);
         const Real condition = digits_.condition(
-            system.matrix(), system.space(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
+            system.tangent(), system.space(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
         if (condition > FactorDigits::limit) return {FailureCause::singular_matrix, {}};
       }
     const Index corrections = corrections_so_far();

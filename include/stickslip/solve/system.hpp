@@ -96,7 +96,7 @@ class System {
   const IndexMap& dofs() const { return dofs_; }
   /// Takes the norms and products of vectors by component or unknown, for all who solve for them.
   const Space& space() const { return space_; }
-  /// The tangent of the last evaluation that was asked for one.
+  /// The matrix as it stands: its pattern, and the tangent of the last evaluation that was asked for one.
   SparseView matrix() const {
     if (condenses()) return condensed_.view();
     SparseView view = matrix_.view();
@@ -105,6 +105,12 @@ class System {
   }
   /// Whether that is the tangent of the last evaluation.
   bool has_tangent() const { return has_tangent_; }
+  /// The tangent of the last evaluation; it must have one.
+  SparseView tangent() const {
+    assert(has_tangent_ &&
+           "System::tangent needs an evaluation with Want::tangent, or Iterate::add_tangent, as the last one");
+    return matrix();
+  }
   /// Another one when the pattern has changed and the solver must analyse again.
   Index pattern_revision() const { return pattern_revision_; }
   /// Supports and loads.
@@ -170,7 +176,7 @@ class System {
   }
   /// The same of what has no velocity: the memory of points and contact nodes.
   void commit() {
-    assert(evaluated_ && "System::commit needs an evaluation since the last commit");
+    assert(evaluated_ && "System::commit needs a System::evaluate without failure since the last commit");
     evaluated_ = false;
     forces_.reaction = forces_.balance;
     if (const Real share = inertia_.contact_share() - 1; share != 0)  // a support takes the force of contact itself
@@ -239,6 +245,7 @@ class System {
   Failure evaluate(const EvaluationType& ev) {
     if (const Failure f = compute_penalties(ev.u, true)) return f;
     has_tangent_ = evaluated_ = false;
+    for_each_contact(pairs_, [](auto& pair) { pair.discard_trial(); });
     if (const Failure f = assemble(ev)) return f;
     if constexpr (has_inertia<Model>) {
       const Stopwatch watch(timings.assembly);
@@ -393,7 +400,7 @@ class System<Model>::Iterate {
 
  private:
   Failure evaluate(const Field& u, Real time, Real dt, Want want, const Field* driven, bool again) {
-    assert(!system_.plain_ && "System::evaluate within an iteration spoils it: restart the iterate");
+    assert(!system_.plain_ && "Iterate::evaluate needs Iterate::restart after a System::evaluate within the iteration");
     System& s = system_;
     s.constraint_force_.setZero();
     if (const Failure f = s.evaluate({u, time, dt, want, driven, again, &s.constraint_force_, s.matrix_, s.couplings_}))
