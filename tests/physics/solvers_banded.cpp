@@ -16,17 +16,17 @@ namespace solvers {
 namespace {
 
 // A chain of 2 n nodes whose even ones are numbered first.
-Matrix badly_numbered(Index n) {
+Matrix badly_numbered(Index half) {
   Matrix m{{0}, {}, {}, Symmetry::symmetric};
   const auto add = [&m](Index row, Real value) {
     m.row.push_back(row);
     m.values.push_back(value);
   };
-  for (Index j = 0; j < 2 * n; ++j) {
+  for (Index j = 0; j < 2 * half; ++j) {
     add(j, 3);
-    if (j < n) {
-      if (j > 0) add(n + j - 1, -1);
-      add(n + j, -1);
+    if (j < half) {
+      if (j > 0) add(half + j - 1, -1);
+      add(half + j, -1);
     }
     m.start.push_back(Index(m.row.size()));
   }

@@ -17,12 +17,12 @@ namespace solvers {
 namespace {
 
 // An arrow, its dense row and column first: in the given order the factor fills, in any other it does not.
-Matrix arrow(Index n) {
+Matrix arrow(Index size) {
   Matrix m{{0}, {}, {}, Symmetry::symmetric};
-  for (Index j = 0; j < n; ++j) {
+  for (Index j = 0; j < size; ++j) {
     m.row.push_back(j);
-    m.values.push_back(j == 0 ? n : 2);
-    for (Index i = 1; j == 0 && i < n; ++i) {
+    m.values.push_back(j == 0 ? Real(size) : 2);
+    for (Index i = 1; j == 0 && i < size; ++i) {
       m.row.push_back(i);
       m.values.push_back(1);
     }
