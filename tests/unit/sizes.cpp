@@ -88,6 +88,23 @@ static_assert(sizeof(Problem<Smooth>::Parameters) > sizeof(Problem<Free>::Parame
 static_assert(sizeof(ContactPair<Rough>) > sizeof(ContactPair<Smooth>) + sizeof(std::vector<int>));
 static_assert(std::is_empty_v<decltype(Contact<Smooth>::friction)>);
 static_assert(sizeof(Contact<Lagged>) == sizeof(Contact<Rough>));
+// A solver without parameters is told nothing, and what Newton's method keeps of a solver is the solver; one process
+// takes its norms by nothing.
+struct ToldSolver : GeneralSolver {
+  struct Parameters {
+    Real told[10] = {};
+  };
+  explicit ToldSolver(const Parameters&) {}
+};
+static_assert(std::is_empty_v<SolverParameters<GeneralSolver>> && std::is_empty_v<SolverParametersOf<Smooth>>);
+static_assert(sizeof(Newton<GeneralSolver>) == sizeof(Newton<ToldSolver>));
+static_assert(sizeof(EigenLdlt) > sizeof(GeneralSolver) && std::is_empty_v<SolverParameters<EigenLdlt>>);
+static_assert(std::is_empty_v<SerialSpace> && std::is_empty_v<System<Smooth>::Space>);
+struct Spaced {
+  [[no_unique_address]] SerialSpace space;
+  Real x;
+};
+static_assert(sizeof(Spaced) == sizeof(Real));
 // Nothing is nothing, also twice.
 struct A;
 struct B;

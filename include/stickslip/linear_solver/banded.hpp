@@ -118,7 +118,8 @@ class BandedCholesky {
   static constexpr bool direct = true;
   using Parameters = BandedParameters;
 
-  explicit BandedCholesky(const Parameters& parameters = {}) : parameters_(parameters) {}
+  BandedCholesky() : BandedCholesky(Parameters{}) {}
+  explicit BandedCholesky(const Parameters& parameters) : parameters_(parameters) {}
 
   void analyze(const SparseView& pattern) {
     order_ = detail::band_ordering(pattern, parameters_.reorder);
@@ -224,7 +225,8 @@ class BandedLu {
   static constexpr bool direct = true;
   using Parameters = BandedParameters;
 
-  explicit BandedLu(const Parameters& parameters = {}) : parameters_(parameters) {}
+  BandedLu() : BandedLu(Parameters{}) {}
+  explicit BandedLu(const Parameters& parameters) : parameters_(parameters) {}
 
   void analyze(const SparseView& pattern) {
     order_ = detail::band_ordering(pattern, parameters_.reorder);

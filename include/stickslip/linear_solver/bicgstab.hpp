@@ -23,7 +23,8 @@ class Bicgstab {
   static constexpr Symmetry storage = Symmetry::general;
   using Parameters = IterationLimits;
 
-  explicit Bicgstab(const Parameters& limits = {}) : limits_(limits) { limits.validate("Bicgstab"); }
+  Bicgstab() : Bicgstab(Parameters{}) {}
+  explicit Bicgstab(const Parameters& limits) : limits_(limits) { limits.validate("Bicgstab"); }
 
   void analyze(const SparseView& pattern) {
     refinement_.resize(pattern.size);

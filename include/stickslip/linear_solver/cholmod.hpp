@@ -39,7 +39,8 @@ class Cholmod {
 
   using Parameters = CholmodParameters;
 
-  explicit Cholmod(const Parameters& parameters = {})
+  Cholmod() : Cholmod(Parameters{}) {}
+  explicit Cholmod(const Parameters& parameters)
       : parameters_(parameters), common_(std::make_unique<cholmod_common>()) {
     cholmod_start(common_.get());
     if (parameters.ordering != Parameters::Ordering::best) {

@@ -19,9 +19,8 @@ class ConjugateGradients {
   static constexpr Symmetry storage = Symmetry::symmetric;
   using Parameters = IterationLimits;
 
-  explicit ConjugateGradients(const Parameters& limits = {}) : limits_(limits) {
-    limits.validate("ConjugateGradients");
-  }
+  ConjugateGradients() : ConjugateGradients(Parameters{}) {}
+  explicit ConjugateGradients(const Parameters& limits) : limits_(limits) { limits.validate("ConjugateGradients"); }
 
   void analyze(const SparseView& pattern) {
     refinement_.resize(pattern.size);

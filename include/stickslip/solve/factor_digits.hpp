@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/vector_space.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 
 #include <cmath>

@@ -4,6 +4,7 @@
 #include <stickslip/base/orthodir.hpp>
 #include <stickslip/base/outcome.hpp>
 #include <stickslip/base/stored_if.hpp>
+#include <stickslip/base/vector_space.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 #include <stickslip/solve/factor_digits.hpp>
 #include <stickslip/solve/system.hpp>
