@@ -74,7 +74,7 @@ double microseconds_per_iteration(Index refine) {
   typename Problem<Model>::Parameters parameters{
       .body = mesh::rectangle({.origin = {1, 0}, .size = {20, 5}, .cells = {40 * refine, 10 * refine}}),
       .material = material};
-  if constexpr (has_inertia<Model>) parameters.time_integration.density = 2.7e-9;
+  if constexpr (has_inertia<Model>) parameters.density = 2.7e-9;
   if constexpr (has_contact<Model>) {
     Contact<Model> plate{.side = "top",
                          .tool = rigid::line({0, 5}, {-1, 0}),

@@ -49,7 +49,7 @@ class Forming {
  private:
   using Pairs = typename stickslip::System<Model>::Pairs;
 
-  static Pairs tools(const stickslip::Body<Model>& body) {
+  static Pairs tools(const stickslip::Bodies<Model>& body) {
     using namespace stickslip;
     const Contact<Model> punch{.side = "top",
                                .tool = rigid::path({50.8, 51.8}, {0, -1}).right(50.8, pi),
@@ -64,11 +64,11 @@ class Forming {
         .enforcement = {.normal = 1e5, .tangential = 1e4},
         .name = "die"};
     Pairs pairs;
-    for (const Contact<Model>& c : {punch, die}) pairs.emplace_back(c, body.mesh(), body.kinematics());
+    for (const Contact<Model>& c : {punch, die}) pairs.emplace_back(c, body);
     return pairs;
   }
 
-  stickslip::Body<Model> body;
+  stickslip::Bodies<Model> body;
   Pairs pairs;
   typename stickslip::System<Model>::Inertia inertia;
 

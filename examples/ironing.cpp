@@ -5,12 +5,12 @@
 // The block is narrower than the cylinder, so what is pushed aside bulges out at its flanks, and a wave of metal runs
 // before the tool. Friction has two components: along the way, and across, where the metal flows to the sides.
 //
-//                 z |      (   ) -> after the press        Half of the block: symmetric about the plane y = 0. It
-//                 stands
-//                   |______(___)___________                on its bottom. Lengths in mm, stresses in MPa; forces are
-//                   those
-//                  /|_____________________/|               of the whole block.
-//               y / +---------------------- x
+//        z |   .---.                      The plane of symmetry, y = 0; y points away from the viewer, and so does the
+//          |  (  +  ) -> after the press   axis of the cylinder. Half of the block, 0 < y < 3, is meshed; it stands on
+//          |___'-_-'_________________      its base, z = 0.
+//    block |                         |
+//          |                         |     Lengths in mm, stresses in MPa; forces are those of the whole block.
+//          +-------------------------+- x
 
 #include "common/benchmark.hpp"
 

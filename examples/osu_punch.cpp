@@ -7,10 +7,12 @@
 // García Garino & Ponthot's paper on the Quasi-Coulomb law: the sheet is thin, the normal forces change slowly, and a
 // friction bound that lags one step behind hardly errs.
 //
-//        z |      . punch .          The punch comes down from above. The die stands below, its fillet of 6.35 mm ends
-//          |_____/_________|_____    where the sheet is clamped, at r = 59.18 mm.
-//    sheet |_____________________|x
-//          |             (  die      Lengths in mm, forces in N of the full turn, stresses in MPa.
+//        z |         /             The punch comes down from above. The die stands below, its fillet of 6.35 mm ends
+//          | punch .'              where the sheet is clamped (*), at r = 59.18 mm.
+//          |___.--'_____________
+//    sheet |____________________*  Lengths in mm, forces in N of the full turn, stresses in MPa.
+//          |                .--'
+//          |               | die
 //          +--------------------- r
 
 #include "common/benchmark.hpp"

@@ -6,8 +6,8 @@
 // changes what its name says. To add a model, write its type and put it on the list: what the choices mean together,
 // whether the tangent is symmetric, what a point has to remember and which solver may be taken, follows.
 //
-//              (   ) -> then along              Plane strain, lengths in mm, forces in N per mm of depth, stresses in
-//     _________(___)_________                   MPa. The strip stands on its bottom.
+//          (   ) -> then along        Plane strain, lengths in mm, forces in N per mm of depth, stresses in
+//     _____(___)_____________         MPa. The strip stands on its bottom.
 //    |_______________________|
 
 #include <stickslip/stickslip.hpp>

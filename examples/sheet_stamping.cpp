@@ -5,11 +5,13 @@
 // The same sheet, tools, material and law of friction, but nothing is known of the symmetry about the axis: the
 // solid elements, contact and friction are those of space. Its force must be that of the axisymmetric program.
 //
-//        z |      . punch .          Symmetric about the planes x = 0 and y = 0, which hold the sheet. Clamped at its
-//          |_____/_________|_____    rim. Forces are those of the full punch.
-//    sheet |_____________________|x
-//         /|             (  die      --refine N has 7N x 7N elements in the middle, as many between it and each half
-//       y/ +---------------------    of the rim, and 2N through the thickness: 14N along a radius, as osu_punch has.
+//        z |         /               The plane of symmetry y = 0; y points away from the viewer. Symmetric about x = 0
+//          | punch .'                too. The sheet is clamped at its rim (*). Forces are those of the full punch.
+//          |___.--'_____________
+//    sheet |____________________*    --refine N has 7N x 7N elements in the middle, as many between it and each half
+//          |                .--'     of the rim, and 2N through the thickness: 14N along a radius, as osu_punch has.
+//          |               | die
+//          +--------------------- x
 //
 // With --solver-table on, every solver that takes the system marches to the travel and its costs are printed:
 // sheet_stamping --refine 3 --travel 1 --solver-table on

@@ -149,7 +149,7 @@ void Record::serialize(stickslip::Archive& archive) {
   archive("history, seconds", seconds);
   std::vector<double> penetrates;
   if (self_penetration_mm) penetrates.push_back(*self_penetration_mm);
-  archive.resizable("history, passes through itself", penetrates);
+  archive.resizable("history, self-penetration", penetrates);
   if (!archive.loading()) return;
   if (time_s.size() != steps.size() + 1 || travel_mm.size() != time_s.size() || force_N.size() != time_s.size())
     throw std::runtime_error(archive.origin + " does not fit: its histories are not of one length");

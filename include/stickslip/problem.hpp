@@ -109,7 +109,7 @@ class March : public RunState {
   Index state_;  // revision of the converged state that the next step starts from
   Newton<SolverOf<Model>, has_inexact_tangent<Model>(), typename System<Mechanical>::Space> newton_;
   Field trial_, driven_, outer_guess_;
-  std::unique_ptr<StressRecovery<typename Scene<Mechanical>::BodyType>> stress_;  // where the mesh's error is asked for
+  std::unique_ptr<StressRecoveries<Mechanical>> stress_;  // where the mesh's error is asked for
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
   using Gain = std::optional<EnergyGain<Mechanical, Scene<Mechanical>>>;
   [[no_unique_address]] StoredIf<keeps_energy, Gain, March> gain_;  // to see what the time scheme gains
@@ -160,15 +160,18 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options, const 
                             .line_search = options.line_search},
               solver) {
   if constexpr (has_outer_iterations<Model>() || has_lag<Model>()) outer_guess_ = problem.u_;
-  if (options.mesh_error_interval > 0)
-    stress_ = std::make_unique<typename decltype(stress_)::element_type>(problem.body_);
+  if (options.mesh_error_interval > 0) stress_ = std::make_unique<StressRecoveries<Mechanical>>(problem.bodies_);
   problem_.prepare();
-  if (const auto apart = mesh::coincident_nodes(problem_.body_.mesh()); apart.nodes > 0)
-    now_.warnings.add("coincident_nodes", "",
-                      std::to_string(apart.nodes) + " nodes of the mesh lie where another one does, nodes " +
-                          std::to_string(apart.first[0]) + " and " + std::to_string(apart.first[1]) +
-                          " (from 0) among them: what was meshed in blocks that were not joined comes apart there",
-                      0);
+  problem_.bodies_.for_each([&](const auto& body) {
+    if (const auto apart = mesh::coincident_nodes(body.mesh()); apart.nodes > 0)
+      now_.warnings.add("coincident_nodes", body.name(),
+                        std::to_string(apart.nodes) + " nodes of the mesh" +
+                            (body.name().empty() ? "" : " of body \"" + body.name() + "\"") +
+                            " lie where another one does, nodes " + std::to_string(apart.first[0]) + " and " +
+                            std::to_string(apart.first[1]) +
+                            " (from 0) among them: what was meshed in blocks that were not joined comes apart there",
+                        0);
+  });
   problem_.require_agreement(options.end);
   if constexpr (has_contact<Model>)
     problem_.visit_contacts([&](const auto& pair) {
@@ -319,7 +322,7 @@ void March<Model>::serialize(Archive& archive) {
   RunState::serialize(archive);
   if constexpr (keeps_energy)
     if (gain_) {
-      gain_->serialize(archive, "run, energy gain");
+      gain_->serialize(archive, "run, energy balance");
       if (archive.loading()) gained_.clear();
     }
   if (!archive.loading()) return;
@@ -385,7 +388,8 @@ typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field&
   // Loads in balance with each other hide that nothing holds the body: the solution is one of many.
   if constexpr (!has_inertia<Model>) {
     driven_ = u - problem_.u_;
-    if (!problem_.proven_ || system.space().max(driven_) > system.body().extent() || diagnosis.loose_part(false) >= 0) {
+    if (!problem_.proven_ || system.space().max(driven_) > system.bodies().extent() ||
+        diagnosis.loose_part(false) >= 0) {
       if (!system.has_tangent()) {
         ++newton_.counts.evaluations;
         ++newton_.counts.evaluations_repeated;
@@ -492,7 +496,7 @@ void March<Model>::advance() {
         complete_step(step, tried.first_iterations, error, [&] {
           if (!stress_ || now_.report.steps % options_.mesh_error_interval != 0) return now_.step.errors.space;
           const Stopwatch watch(system.timings.estimates);
-          stress_->update(problem_.body_, u);
+          stress_->update(problem_.bodies_, u);
           return stress_->relative();
         });
         return;

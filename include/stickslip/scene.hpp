@@ -21,31 +21,57 @@ namespace stickslip {
 template <class Model>
 class March;
 
-/// A scene, whatever solves it: body, tools, supports and loads, and its converged state.
+namespace detail {
+/// What a problem is made of, for a model of one body.
+template <class Model, class Tag, bool several = NamesBodies<Model>>
+struct SceneParameters {
+  Mesh<Model::Kinematics::dim, Model::Element::nodes> body;
+  [[no_unique_address]] typename Model::Kinematics kinematics{};
+  typename Model::Material material{};
+  [[no_unique_address]] StoredIf<has_inertia<Model>, Real, SceneParameters> density{};  ///< [mass / reference volume]
+  [[no_unique_address]] typename Model::TimeIntegration time_integration{};
+  [[no_unique_address]] DampingOf<Model> damping{};
+  [[no_unique_address]] StoredIf<has_contact<Model>, Contacts<Model>, Tag> contacts{};
+
+  BodyDescriptions<Model> descriptions() && {
+    BodyDescriptions<Model> list(1);
+    list[0].mesh = std::move(body);
+    list[0].material = material;
+    if constexpr (has_inertia<Model>) list[0].density = density;
+    return list;
+  }
+};
+/// For a model that names types of bodies.
+template <class Model, class Tag>
+struct SceneParameters<Model, Tag, true> {
+  BodyDescriptions<Model> bodies{};
+  [[no_unique_address]] typename Model::Kinematics kinematics{};
+  [[no_unique_address]] typename Model::TimeIntegration time_integration{};
+  [[no_unique_address]] DampingOf<Model> damping{};
+  [[no_unique_address]] StoredIf<has_contact<Model>, Contacts<Model>, Tag> contacts{};
+
+  BodyDescriptions<Model> descriptions() && { return std::move(bodies); }
+};
+}  // namespace detail
+
+/// A scene, whatever solves it: bodies, tools, supports and loads, and its converged state.
 template <class Model>
 class Scene {
  public:
-  using BodyType = Body<Model>;
+  using BodiesType = Bodies<Model>;
   static constexpr int dim = Model::Kinematics::dim;
   static constexpr bool with_contact = has_contact<Model>;
   static constexpr bool symmetric_storage = matrix_storage<Model> == Symmetry::symmetric;
 
-  struct Parameters {
-    typename BodyType::MeshType body;
-    [[no_unique_address]] typename Model::Kinematics kinematics{};
-    typename Model::Material material{};
-    [[no_unique_address]] typename Model::TimeIntegration time_integration{};
-    [[no_unique_address]] DampingOf<Model> damping{};
-    [[no_unique_address]] StoredIf<with_contact, Contacts<Model>, Scene> contacts{};
-  };
+  using Parameters = detail::SceneParameters<Model, Scene>;
 
   /// Throws std::invalid_argument, naming the input, before anything is computed.
   explicit Scene(Parameters parameters)
-      : body_(std::move(parameters.body), validated(parameters.kinematics), validated(parameters.material)) {
+      : bodies_(std::move(parameters).descriptions(), validated(parameters.kinematics)) {
     if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
     if constexpr (has_inertia<Model>)
-      inertia_.emplace(body_, validated(parameters.time_integration), validated(parameters.damping), contact_nodes());
-    u_.setZero(body_.mesh().node_count() * dim);
+      inertia_.emplace(bodies_, validated(parameters.time_integration), validated(parameters.damping), contact_nodes());
+    u_.setZero(bodies_.node_count() * dim);
     last_increment_ = reactions_ = u_;
     if constexpr (has_inertia<Model>) increment_before_ = u_;
   }
@@ -61,8 +87,8 @@ class Scene {
   /// support prescribes another value of the component at a node now.
   Scene& drive(const std::string& side, Index component, std::function<Real(Real)> value) {
     driven_.push_back(checked({side, component, std::move(value)}));
-    Prescribed supports(dim, body_.mesh().extent());
-    for (const SideValue& d : driven_) supports.drive(d, body_.mesh().side(d.side).nodes);
+    Prescribed supports(dim, bodies_.extent());
+    for (const SideValue& d : driven_) supports.drive(d, bodies_.side_nodes(d.side));
     if (const std::string fault = supports.contradiction(time_); !fault.empty()) {
       driven_.pop_back();
       refuse_supports(fault);
@@ -81,7 +107,7 @@ class Scene {
   /// Loads a side with a total dead force in one component, spread over its reference area: value(time) [force].
   Scene& load(const std::string& side, Index component, std::function<Real(Real)> value) {
     if (!value) throw std::invalid_argument("load on side \"" + side + "\": needs a function of time");
-    if (body_.mesh().side(side).facets.empty())
+    if (!bodies_.side_has_facets(side))
       throw std::invalid_argument("load on side \"" + side + "\": the side has no facets to spread it over");
     loads_.push_back(checked({side, component, std::move(value)}));
     return *this;
@@ -97,8 +123,8 @@ class Scene {
     if (time_ != 0)
       throw std::invalid_argument("start velocity: the run has begun, it is at time " + brief(time_) + " already");
     changed_ = true;  // the start is made again, if it has been
-    for (Index n = 0; n < body_.mesh().node_count(); ++n) {
-      const Vec<Real, dim> v = velocity(body_.mesh().nodes[static_cast<std::size_t>(n)]);
+    for (Index n = 0; n < bodies_.node_count(); ++n) {
+      const Vec<Real, dim> v = velocity(bodies_.positions()[static_cast<std::size_t>(n)]);
       if (!is_finite(v)) throw std::invalid_argument("start velocity: it is not finite at node " + std::to_string(n));
       for (int i = 0; i < dim; ++i) inertia_->velocity()[n * dim + i] = v[i];
     }
@@ -111,7 +137,9 @@ class Scene {
     if (!system_) throw std::invalid_argument("the problem has no system before its first march");
     return *system_;
   }
-  const BodyType& body() const { return body_; }
+  const BodiesType& bodies() const { return bodies_; }
+  /// The body of a model that names no types of bodies.
+  const auto& body() const requires(!detail::NamesBodies<Model>) { return bodies_.only(); }
   /// Converged nodal displacements, node * dim + component [length].
   const Field& displacement() const { return u_; }
   /// Displacement of a node [length].
@@ -138,7 +166,7 @@ class Scene {
   Vec<Real, dim> contact_force(const std::string& name) const requires with_contact { return contact(name).force(); }
   /// Sum of the support forces on the body at a side, in one component [force].
   Real reaction(const std::string& side, Index component) const {
-    const auto& nodes = body_.mesh().side(side).nodes;
+    const std::vector<Index> nodes = bodies_.side_nodes(side);
     require_component(side, component);
     Real sum = 0;
     for (const Index n : nodes) sum += reactions_[n * dim + component];
@@ -148,10 +176,11 @@ class Scene {
   /// Largest accumulated plastic strain of a point; 0 for a material that has none.
   Real max_plastic_strain() const {
     Real largest = 0;
-    if constexpr (requires(typename BodyType::State s) { s.plastic_strain; })
-      body_.visit_points(u_, [&](Index, int, const auto&, const auto& state, Real) {
-        largest = std::max(largest, state.plastic_strain);
+    bodies_.for_each([&](const auto& body) {
+      body.visit_points(u_, [&](Index, int, const auto&, const auto& state, Real) {
+        if constexpr (requires { state.plastic_strain; }) largest = std::max(largest, state.plastic_strain);
       });
+    });
     return largest;
   }
 
@@ -166,7 +195,7 @@ class Scene {
     diagnosis_.reset();
     system_.reset();
     ++numberings_;
-    system_ = std::make_unique<System<Model>>(body_, pairs_, inertia_term(), driven_, loads_, numberings_);
+    system_ = std::make_unique<System<Model>>(bodies_, pairs_, inertia_term(), driven_, loads_, numberings_);
     diagnosis_ = std::make_unique<Diagnosis<Model>>(*system_);
     system_->timings = spent;
     changed_ = false;
@@ -230,14 +259,18 @@ class Scene {
   // What the scene is of, and its converged state.
   void serialize(Archive& archive) {
     archive.check_equal("kinematics", type_name<typename Model::Kinematics>());
-    archive.check_equal("element", type_name<typename Model::Element>());
-    archive.check_equal("material", type_name<typename Model::Material>());
+    bodies_.for_each([&](const auto& body) {
+      using BodyType = std::remove_cvref_t<decltype(body)>;
+      const std::string of = body.name().empty() ? "" : " of body " + body.name();
+      archive.check_equal("element" + of, type_name<typename BodyType::Element>());
+      archive.check_equal("material" + of, type_name<typename BodyType::Material>());
+      archive.check_equal("mesh" + of, fingerprint(body.mesh()));
+    });
     archive.check_equal("friction", type_name<typename Model::Friction>());
     archive.check_equal("enforcement", type_name<typename Model::Enforcement>());
     if constexpr (with_contact) archive.check_equal("tool", type_name<ToolOf<Model>>());
-    archive.check_equal("inertia", type_name<typename Model::TimeIntegration>());
+    archive.check_equal("time integration", type_name<typename Model::TimeIntegration>());
     archive.check_equal("damping", type_name<DampingOf<Model>>());
-    archive.check_equal("mesh", fingerprint(body_.mesh()));
     archive.check_equal("supports", system_->dofs().fingerprint());
     archive("displacement", u_);
     archive("last increment", last_increment_);
@@ -245,7 +278,7 @@ class Scene {
     archive("last time increment", last_dt_);
     archive("time increment before", increment_before_dt_);
     archive("reactions", reactions_);
-    body_.serialize(archive);
+    bodies_.serialize(archive);
     if constexpr (has_inertia<Model>) {
       archive("increment before", increment_before_);
       inertia_->serialize(archive);
@@ -264,7 +297,7 @@ class Scene {
         if (pair.name() == (c.name.empty() ? c.side : c.name))
           throw std::invalid_argument("two contacts are called \"" + pair.name() + "\"; give them names");
       });
-      pairs.emplace_back(c, body_.mesh(), body_.kinematics());
+      pairs.emplace_back(c, bodies_);
     }
   }
   template <class... Frictions>
@@ -278,7 +311,7 @@ class Scene {
 
   // The nodes of contact sides, by number.
   std::vector<bool> contact_nodes() const {
-    std::vector<bool> touches(static_cast<std::size_t>(body_.mesh().node_count()), false);
+    std::vector<bool> touches(static_cast<std::size_t>(bodies_.node_count()), false);
     if constexpr (with_contact)
       visit_contacts([&](const auto& pair) {
         for (const Index n : pair.nodes()) touches[static_cast<std::size_t>(n)] = true;
@@ -296,14 +329,13 @@ class Scene {
       throw std::invalid_argument("side \"" + side + "\": there is no component " + std::to_string(component));
   }
   SideValue checked(SideValue value) {
-    const auto& nodes = body_.mesh().side(value.side).nodes;
-    if (nodes.empty()) throw std::invalid_argument("side \"" + value.side + "\" has no nodes");
+    if (bodies_.side_nodes(value.side).empty()) throw std::invalid_argument("side \"" + value.side + "\" has no nodes");
     require_component(value.side, value.component);
     changed_ = true;  // supports decide the numbering
     return value;
   }
 
-  BodyType body_;
+  BodiesType bodies_;
   [[no_unique_address]] typename System<Model>::Pairs pairs_;
   [[no_unique_address]] std::conditional_t<has_inertia<Model>, std::optional<InertiaForces<Model>>, NoInertiaForces>
       inertia_;

@@ -50,4 +50,10 @@ struct QuasistaticDefaults {
   using LinearSolver = EigenDirect;
 };
 
+/// Defaults of a type of bodies (BodyTypes); derive and override.
+struct BodyDefaults {
+  using Element = MeanDilatation<Quad4>;
+  using Material = Hencky;
+};
+
 }  // namespace stickslip

@@ -21,7 +21,7 @@ def check(condition, what):
     assert condition, what
 
 
-def books_close(result, part):
+def energy_balance_closes(result, part):
     """The energy ledger: what cannot be accounted for, as a part of the work done; nothing is negative that cannot be."""
     check(abs(result["unbalanced_work_J"]) < part * result["external_work_J"], result["unbalanced_work_J"])
     for key in ("kinetic_energy_J", "plastic_work_J", "friction_work_J", "elastic_energy_J", "penalty_energy_J"):
@@ -43,7 +43,7 @@ for law in ("coulomb", "quasi-coulomb"):
     check(r["steps"] <= steps and r["iterations"] <= iterations, (law, r["steps"], r["iterations"]))
     check(r["completed"] and r["max_slip_mm"] > 250 and r["max_penetration_mm"] < 50.8 / 500, (law, r["max_slip_mm"], r["max_penetration_mm"]))
     check(r["kinetic_energy_J"] == 0 and r["friction_work_J"] > 0.05 * r["external_work_J"], r["friction_work_J"])
-    books_close(r, 1e-3)
+    energy_balance_closes(r, 1e-3)
     forces[law] = r["final_force_N"]
 check(0.85 < forces["quasi-coulomb"] / forces["coulomb"] < 0.97, forces)
 container = run(extrusion, "--die", "container")
@@ -51,14 +51,14 @@ check(container["completed"] and container["max_slip_mm"] > 270, container["max_
 wider = run(extrusion, "--half-angle", "3")
 check(wider["final_force_N"] < forces["coulomb"], "a slimmer cone takes less force")
 
-# The tube: turned inside out without friction, and the books close whatever the law.
+# The tube: turned inside out without friction, and the energy balance closes under every law.
 for law, mu in (("frictionless", "0"), ("quasi-coulomb", "0.15"), ("coulomb", "0.15"), ("quasi-coulomb", "0.3"), ("coulomb", "0.3")):
     r = run(tube, "--friction", law, "--mu", mu)
     check(r["completed"] and abs(r["history"]["displacement_mm"][-1] - 50) < 1e-9, (law, r["steps"]))
     check(r["steps"] <= 250 and r["iterations"] <= 900, (law, mu, r["steps"], r["iterations"]))
     check(r["symmetric_storage"] == (law != "coulomb"), r["symmetric_storage"])
     check(r["kinetic_energy_J"] > 0 and r["plastic_work_J"] > 0.3 * r["external_work_J"], r["plastic_work_J"])
-    books_close(r, 1e-2)
+    energy_balance_closes(r, 1e-2)
     check((r["self_penetration_from_mm"] is None) == (law == "frictionless"), r["self_penetration_from_mm"])
 abrupt = run(tube, "--friction", "frictionless", "--start-velocity", "off")
 check(max(abrupt["history"]["force_N"][:40]) > 1000, "an abrupt start sends a shock through the tube")

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
         {.body =
              mesh::rectangle({.origin = {1, 0}, .size = {3, 1}, .cells = {18 * options->refine, 6 * options->refine}}),
          .material = {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 50}},
-         .time_integration = {.density = 0.1},
+         .density = 0.1,
          .contacts = {{.side = "top",
                        .tool = rigid::disc({2, 1.02 + radius}, radius),
                        .motion = motion,

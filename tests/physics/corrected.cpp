@@ -28,7 +28,7 @@ static_assert(!stores_couplings<Model<Corrected<EigenLdlt>, QuasiCoulomb>>);
 // Only friction's couplings are corrected.
 static_assert(!valid_model<Model<Corrected<EigenLdlt>, Coulomb, HypoelasticJ2<LinearHardening>>>);
 
-TEST_CASE("corrected: a symmetric matrix and small blocks, against the whole") {
+TEST_CASE("a corrected solver solves a symmetric matrix plus small blocks as a factor of the sum does") {
   std::mt19937 random(5);
   std::normal_distribution<Real> normal(0, 1);
   constexpr Index n = 60;
@@ -87,7 +87,8 @@ TEST_CASE("corrected: a symmetric matrix and small blocks, against the whole") {
 }
 
 TEST_CASE(
-    "corrected: the whole tangent's answer and its count of iterations, also with plastic flow and strong friction") {
+    "a corrected run has the forces and the iterations of the full tangent, also with plastic flow and strong "
+    "friction") {
   const auto compare = [](auto exact, auto corrected, Real mu) {
     const auto run = [mu]<class M>(M) {
       auto p = press_and_drag<M>(mu, 0.2, 1);
@@ -113,11 +114,11 @@ struct Thrown : Model<S, Coulomb> {
   using TimeIntegration = GeneralizedAlpha;
 };
 
-TEST_CASE("corrected: with inertia, whose share scales the couplings") {
+TEST_CASE("a corrected run with inertia, which scales the couplings, is that of the full tangent") {
   const auto run = []<class M>(M) {
     Problem<M> block{{.body = mesh::rectangle({.size = {10, 5}, .cells = {8, 4}}),
                       .material = material<Hencky>(),
-                      .time_integration = {.density = 2.7e-9},
+                      .density = 2.7e-9,
                       .contacts = {{.side = "bottom",
                                     .tool = rigid::line({0, 0}, {1, 0}),
                                     .friction = {.mu = 0.4},

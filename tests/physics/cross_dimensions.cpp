@@ -158,7 +158,7 @@ void check_multipliers() {
     MESSAGE(tolerance << ": penetration " << left << ", outer iterations " << march.report().outer_iterations);
   }
 }
-TEST_CASE("augmented Lagrangian in space: no penetration of a ball is left") {
+TEST_CASE("the augmented Lagrangian leaves no penetration of a ball") {
   check_multipliers<Coulomb>();
   check_multipliers<WithPressure<Coulomb, LagIterated>>();
 }

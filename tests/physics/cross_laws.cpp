@@ -63,7 +63,7 @@ Field in_space(const Law& law) {
 void same(const Field& a, const Field& b) {
   CHECK((a - b).norm() < 1e-11 * b.norm());
 }
-TEST_CASE("every bound of nothing is frictionless, in the plane and in space") {
+TEST_CASE("every law with a bound of zero is frictionless, in the plane and in space") {
   const Field smooth = in_plane<Frictionless>(none);
   same(in_plane<Coulomb>(none), smooth);
   same(in_plane<CappedCoulomb>(capped_none), smooth);
@@ -105,8 +105,8 @@ void check_orders(const Law& law) {
   check_order<WithPressure<Law, Extrapolated>>(law, exact, 2);
 }
 TEST_CASE(
-    "every bound that looks at the pressure tends to its current value, at first order from the last converged "
-    "pressure and at second from the extrapolated one") {
+    "every bound that depends on pressure tends to its current value, at first order from the last converged pressure "
+    "and at second from the extrapolated one") {
   check_orders(CappedCoulomb{.mu = 0.3, .tau_max = 1e6});
   check_orders(SlipWeakeningCoulomb{.mu_static = 0.3, .mu_dynamic = 0.2, .length = 2});
   check_orders(Stribeck{.mu_static = 0.3, .mu_dynamic = 0.2, .speed = 2});

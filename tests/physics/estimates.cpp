@@ -104,7 +104,7 @@ void check_effectivity(const std::string& what, Real estimate, Real error) {
 
 }  // namespace
 
-TEST_CASE("estimates: lag, step and penetration tell the error of the extrusion's force") {
+TEST_CASE("the estimates by lag, step size and penetration bound the error of the extrusion's force") {
   for (const bool container : {false, true}) {
     CAPTURE(container);
     const Run reference = extrude<Coulomb>({.container = container, .steps = 2000, .tolerance = 1e-5});
@@ -131,7 +131,7 @@ TEST_CASE("estimates: lag, step and penetration tell the error of the extrusion'
   }
 }
 
-TEST_CASE("estimates: automatic steps hold the lag and the step's error that they are given") {
+TEST_CASE("automatic steps keep the tolerances of lag and step error") {
   Real before = 1;
   for (const Real tolerance : {0.02, 0.01, 0.005}) {
     const Run run = extrude<QuasiCoulomb>({.lag_tolerance = tolerance});
@@ -149,7 +149,7 @@ TEST_CASE("estimates: automatic steps hold the lag and the step's error that the
   CHECK(fine.report.errors.time < 0.5 * coarse.report.errors.time);
 }
 
-TEST_CASE("advice: what it names reaches the accuracy that was wished") {
+TEST_CASE("a run with the recommended steps and solver reaches the wished accuracy") {
   for (const bool container : {false, true}) {
     CAPTURE(container);
     const Run reference = extrude<Coulomb>({.container = container, .steps = 2000, .tolerance = 1e-5});
@@ -173,7 +173,7 @@ TEST_CASE("advice: what it names reaches the accuracy that was wished") {
   CHECK(extrude<Coulomb>({.steps = 60}).summary.bound == RunSummary::Bound::current);
 }
 
-TEST_CASE("estimates: the mesh's error of the stress") {
+TEST_CASE("the estimated mesh error of the stress is that of a comparison with a finer mesh") {
   using M = Extrusion<Frictionless>;
   using Stress = Tensor<Real, Axisymmetric::TensorPattern>;
   constexpr Index fine_cells = 4;  // in a coarse one, by direction

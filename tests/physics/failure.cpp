@@ -33,7 +33,7 @@ std::unique_ptr<Problem<M>> block(std::function<bool(Real)> broken) {
   return p;
 }
 
-TEST_CASE("a run that cannot go on stops cleanly, and can be taken up again") {
+TEST_CASE("a run that fails keeps its last converged state and can be continued") {
   bool broken = true;
   auto p = block([&](Real t) { return broken && t > 0.5; });
   auto march = p->march({.end = 1, .steps = 10, .tolerance = 1e-10});
@@ -102,7 +102,7 @@ TEST_CASE("a rejected step leaves no trace") {
   CHECK(q->max_plastic_strain() == p->max_plastic_strain());
 }
 
-TEST_CASE("equal steps that had to be cut to a millionth of a step come back to their grid within some steps") {
+TEST_CASE("equal steps cut to a millionth return to their grid within a few steps") {
   // What happens at 0.5501 only steps below 1e-7 get over.
   const Problem<M>* scene = nullptr;
   auto p = block([&](Real t) { return scene && scene->time() < 0.5501 && t >= 0.5501 && t - scene->time() > 1e-7; });
@@ -119,7 +119,7 @@ TEST_CASE("equal steps that had to be cut to a millionth of a step come back to 
   CHECK((p->displacement() - q->displacement()).norm() < 0.02 * q->displacement().norm());  // less lags in short steps
 }
 
-TEST_CASE("a drive that turns elements inside out") {
+TEST_CASE("a drive that inverts elements is refused as element_inverted") {
   using Body = Lone<EigenLdlt>;
   Problem<Body> p({.body = mesh::rectangle({.cells = {3, 3}}), .material = material<Hencky>()});
   p.hold("bottom", 0).hold("bottom", 1).hold("top", 0).drive("top", 1, [](Real t) {
@@ -134,7 +134,7 @@ TEST_CASE("a drive that turns elements inside out") {
   CHECK(p.displacement(p.body().mesh().side("top").nodes[1])[1] == doctest::Approx(-0.2 * p.time()).epsilon(1e-12));
 }
 
-TEST_CASE("a drive and a load that are no numbers name their node") {
+TEST_CASE("a drive or load that is not finite is refused with its node") {
   using Body = Lone<EigenLdlt>;
   const auto run = [](auto prepare) {
     Problem<Body> p({.body = mesh::rectangle({.cells = {1, 1}}), .material = material<Hencky>()});
@@ -163,7 +163,7 @@ std::unique_ptr<Problem<Plain>> column(Mesh<2, 4> body = mesh::rectangle({.size 
   return p;
 }
 
-TEST_CASE("what a contact did is told of the converged state, not of an attempt that failed") {
+TEST_CASE("contact forces are those of the converged state, not of a failed attempt") {
   bool broken = true;
   // The tool is moved by a length at which elements turn inside out, when all nodes have been looked at.
   auto p = std::make_unique<Problem<M>>(
@@ -201,7 +201,7 @@ TEST_CASE("what a contact did is told of the converged state, not of an attempt 
   CHECK(now.max_penetration == deepest);
 }
 
-TEST_CASE("supports and loads given between the steps of a march count from the next one on") {
+TEST_CASE("supports and loads given between the steps of a march act from the next step on") {
   const auto pull = [](Real t) { return 500 * t; };
   const auto change = [&](Problem<Plain>& p) { p.hold("left", 0).hold("top", 0).load("right", 1, pull); };
   auto between = column();
@@ -236,7 +236,7 @@ TEST_CASE("supports and loads given between the steps of a march count from the 
   CHECK(early->displacement() == before->displacement());
 }
 
-TEST_CASE("a support that is released within a march holds no longer") {
+TEST_CASE("a support released within a march no longer acts") {
   const auto pull = [](Real t) { return 500 * t; };
   auto p = column();
   p->load("right", 0, pull);
@@ -260,7 +260,7 @@ TEST_CASE("a support that is released within a march holds no longer") {
   CHECK(rest.report().steps == 2);
 }
 
-TEST_CASE("a march that is no longer the scene's own says so") {
+TEST_CASE("a march that another march has overtaken refuses to continue") {
   const auto throws = [](auto&& advance) {
     CHECK_THROWS_WITH_AS(advance(), doctest::Contains("another march has moved it"), std::invalid_argument);
   };
@@ -284,7 +284,7 @@ TEST_CASE("a march that is no longer the scene's own says so") {
   static_assert(!std::is_move_constructible_v<March<Plain>>);  // a march that was moved from would be one
 }
 
-TEST_CASE("supports that contradict each other") {
+TEST_CASE("supports that contradict each other are refused with their names") {
   const auto complains = [](auto&& f, std::initializer_list<const char*> parts) {
     std::string text;
     try {
@@ -346,7 +346,7 @@ Mesh<2, 4> two_blocks(bool named) {
   return both;
 }
 
-TEST_CASE("a second part of the body that nothing holds is named, before a step is taken") {
+TEST_CASE("a part of the body without any support is named before the first step") {
   const auto refused = [](Problem<Plain>& p, const char* part) {
     auto march = p.march({.end = 1, .steps = 40});
     CHECK_FALSE(bool(march.finish()));
@@ -370,7 +370,7 @@ TEST_CASE("a second part of the body that nothing holds is named, before a step 
   refused(*half, named);
 }
 
-TEST_CASE("a second part that may only turn is named after its first step; one that is held is none") {
+TEST_CASE("a part that can only rotate is named after its first step, a supported one is not") {
   auto mesh = two_blocks(true);
   mesh.sides["pin"].nodes = {mesh.side("left2").nodes[1]};
   const auto force = [](Real t) { return 10 * t; };
@@ -388,7 +388,7 @@ TEST_CASE("a second part that may only turn is named after its first step; one t
   CHECK(held->reaction("bottom2", 1) == doctest::Approx(-10).epsilon(1e-6));
 }
 
-TEST_CASE("a part that a tool holds is held, until the tool leaves it") {
+TEST_CASE("a part that a tool supports is refused only when the tool leaves it") {
   // The second block lies on a floor between two walls' worth of friction-free tool: a groove that holds it both ways.
   using Touching = Model<EigenLdlt, Frictionless>;
   auto body = two_blocks(true);
@@ -461,7 +461,7 @@ struct Squeeze {
     return true;
   }
 };
-TEST_CASE("forces are right to the tolerance whatever the penalty") {
+TEST_CASE("forces are right to the tolerance for every penalty") {
   for (Real penalty = 1e2; penalty < 2e20; penalty *= 100)
     for (const Index steps : {0, 5})
       for (const Real tolerance : {1e-5, 1e-9}) {
@@ -486,7 +486,7 @@ TEST_CASE("forces are right far from the origin, or the coordinates are named") 
   }
   CHECK_FALSE(Squeeze{.depth = 1e-7, .offset = 1e6}.right("digits of the forces are left, the tolerance asks for 5"));
 }
-TEST_CASE("a penalty on a tool askew buries the body's stiffness along it: right, or it is named") {
+TEST_CASE("forces at a stiff penalty on an inclined tool are right, or the run is refused as digits_lost") {
   const auto force = [](Real penalty) {
     Problem<Model<EigenLdlt>> p({.body = mesh::rectangle({.size = {4, 2}, .cells = {4, 2}}),
                                  .material = {.young = 1000, .poisson = 0.3},
@@ -510,7 +510,7 @@ TEST_CASE("a penalty on a tool askew buries the body's stiffness along it: right
   CHECK(force(1e15) == doctest::Approx(best).epsilon(1e-5));
   for (const Real penalty : {1e19, 1e21}) CHECK(force(penalty) == 0);
 }
-TEST_CASE("a body that only moves has no forces that could lose digits") {
+TEST_CASE("a body without strain is not refused as digits_lost") {
   for (const Real far : {1.0, 1e3, 1e6}) {
     Problem<Lone<EigenLdlt>> p(
         {.body = mesh::rectangle({.size = {4, 2}, .cells = {4, 2}}), .material = {.young = 1000, .poisson = 0.3}});
@@ -522,7 +522,7 @@ TEST_CASE("a body that only moves has no forces that could lose digits") {
     CHECK(p.displacement(p.body().mesh().side("top").nodes[1])[1] == doctest::Approx(far).epsilon(1e-9));
   }
 }
-TEST_CASE("a body that springs back to rest is at rest, and no iteration runs after its last digits") {
+TEST_CASE("a body that springs back is at rest without iterations on its round-off") {
   Problem<Model<EigenLdlt>> p({.body = mesh::rectangle({.size = {4, 2}, .cells = {8, 4}}),
                                .material = {.young = 1000, .poisson = 0.3},
                                .contacts = {{.side = "top",
@@ -538,7 +538,7 @@ TEST_CASE("a body that springs back to rest is at rest, and no iteration runs af
 }
 
 // Pressed far beyond its buckling loads, and nothing is askew.
-TEST_CASE("a straight strip at 700 times Euler's load tells its negative pivots, and warns") {
+TEST_CASE("a straight strip at 700 times Euler's load reports its negative pivots and warns") {
   const Real length = 20, width = 0.2, euler = 4 * pi * pi * 1000 / 0.91 * std::pow(width, 3) / 12 / (length * length);
   const auto strip = [&](Real times, Index steps) {
     auto p = std::make_unique<Problem<Lone<EigenLdlt>>>(

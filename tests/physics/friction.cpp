@@ -5,7 +5,7 @@ namespace friction {
 
 using namespace scene;
 
-TEST_CASE("Coulomb: a sliding block is dragged by mu N, to the tolerance of the balance") {
+TEST_CASE("under Coulomb's law a sliding block is dragged by mu N, to the tolerance of the balance") {
   int sliding = 0, sticking = 0;
   (void)sliding_block<Coulomb>({.mu = 0.3}, 100, 0.02, [&](const StepReport& step, const V& force) {
     const Real normal = -force[1], tangential = std::abs(force[0]);

@@ -13,7 +13,7 @@ using namespace scene;
 
 constexpr Real length = 4;  // of the block, and its area at unit thickness
 
-TEST_CASE("Tresca: a sliding block is dragged by tau A, whatever presses it") {
+TEST_CASE("under Tresca's law a sliding block is dragged by tau A at every pressure") {
   int sliding = 0;
   (void)sliding_block<Tresca>({.tau = 20}, 50, 0.02, [&](const StepReport& step, const V& force) {
     CHECK(step.contact.dissipated >= 0);
@@ -26,7 +26,7 @@ TEST_CASE("Tresca: a sliding block is dragged by tau A, whatever presses it") {
   CHECK(sliding > 20);
 }
 
-TEST_CASE("Tresca on a ring: the area is that of the full turn, whatever the penalty stands for") {
+TEST_CASE("Tresca's bound on a ring takes the area of the full turn for every penalty unit") {
   using M = Model<EigenDirect, Tresca, Hencky, Axisymmetric>;
   for (const PenaltyPer per : {PenaltyPer::unit_depth, PenaltyPer::area}) {
     Problem<M> p({.body = mesh::rectangle({.origin = {3, 0}, .size = {1, 2}, .cells = {3, 2}}),
@@ -45,7 +45,7 @@ TEST_CASE("Tresca on a ring: the area is that of the full turn, whatever the pen
   }
 }
 
-TEST_CASE("capped Coulomb: mu N far below the cap, tau_max A at it") {
+TEST_CASE("under capped Coulomb a block is dragged by mu N below the cap and by tau_max A at it") {
   const V coulomb = sliding_block<Coulomb>({.mu = 0.3}, 20, 0.02);
   const V below = sliding_block<CappedCoulomb>({.mu = 0.3, .tau_max = 1e6}, 20, 0.02);
   CHECK(below == coulomb);
@@ -56,7 +56,7 @@ TEST_CASE("capped Coulomb: mu N far below the cap, tau_max A at it") {
   CHECK(foretold[0] == doctest::Approx(at[0]).epsilon(1e-12));
 }
 
-TEST_CASE("Stribeck at constant speed and pressure: mu(v) N, at any step size") {
+TEST_CASE("under Stribeck's law a block of constant speed is dragged by mu(v) N at every step size") {
   const Stribeck law{.mu_static = 0.4, .mu_dynamic = 0.1, .speed = 3};
   CHECK(law.coefficient(speed) > 0.2);
   for (const Index steps : {50, 100}) {
@@ -65,7 +65,7 @@ TEST_CASE("Stribeck at constant speed and pressure: mu(v) N, at any step size") 
   }
 }
 
-TEST_CASE("slip weakening: mu of the slid distance times N") {
+TEST_CASE("under slip weakening a block is dragged by mu of the slid distance times N") {
   const SlipWeakeningCoulomb law{.mu_static = 0.4, .mu_dynamic = 0.1, .length = 1};
   (void)sliding_block<Quasi<SlipWeakeningCoulomb>>(law, 100, 0, [&](const StepReport& step, const V& force) {
     CHECK(step.contact.dissipated >= 0);

@@ -74,7 +74,7 @@ std::unique_ptr<Problem<M>> bar(const TimeScheme& scheme, Real normal, bool wall
   auto problem = std::make_unique<Problem<M>>(
       typename Problem<M>::Parameters{.body = mesh::rectangle({.size = {1, length}, .cells = {2, 50}}),
                                       .material = {.young = 1e4, .poisson = 0},
-                                      .time_integration = {.density = 1e-2, .scheme = scheme},
+                                      .density = 1e-2, .time_integration = {.scheme = scheme},
                                       .contacts = {{.side = "bottom",
                                                     .tool = rigid::line({0, -gap}, {1, 0}),
                                                     .motion = [=](Real t) { return V(0, wall_moves ? t : 0); },
@@ -126,7 +126,7 @@ void hits(const TimeScheme& scheme, Real normal, Index steps_per_transit, bool w
   CHECK((last - first) / 2 < (normal > 1 ? 1.03 : 1.05) + resolution);
 }
 
-TEST_CASE("a bar that hits a wall makes no energy, and its force is that of the wave") {
+TEST_CASE("a bar that hits a wall gains no energy, and its force is that of the wave") {
   for (const TimeScheme& scheme : {newmark(), chung_hulbert(0.9), chung_hulbert(0.5), chung_hulbert(0.0), hht(0.1)}) {
     for (const Real normal : {1.0, 100.0, 1e4}) hits<Smooth>(scheme, normal, 50);
     hits<Smooth>(scheme, 1e4, 100);
@@ -135,7 +135,7 @@ TEST_CASE("a bar that hits a wall makes no energy, and its force is that of the 
   }
 }
 
-TEST_CASE("so does one at rest that a moving wall hits") {
+TEST_CASE("a bar at rest that a moving wall hits gains no energy, and its force is that of the wave") {
   hits<Smooth>(newmark(), 1e4, 100, true);
   hits<Exact>(chung_hulbert(0.5), 10, 100, true);
 }
@@ -149,11 +149,11 @@ TEST_CASE("multipliers leave no gap that the motion of a step opens") {
   REQUIRE(march.outcome());
 }
 
-TEST_CASE("pressed smoothly, displacements are of order 2 and forces of order 1") {
+TEST_CASE("under a smooth pressure displacements converge at second order and forces at first") {
   const auto pressed = [](Index steps) {
     Problem<Smooth> p{{.body = mesh::rectangle({.size = {1, length}, .cells = {1, 20}}),
                        .material = {.young = 1e4, .poisson = 0},
-                       .time_integration = {.density = 1e-2},
+                       .density = 1e-2,
                        .contacts = {{.side = "bottom",
                                      .tool = rigid::line({0, 0}, {1, 0}),
                                      .enforcement = stiff<Smooth>(1e4),
@@ -170,10 +170,10 @@ TEST_CASE("pressed smoothly, displacements are of order 2 and forces of order 1"
   CHECK(std::log2(coarse[1] / fine[1]) > 0.8);
 }
 
-TEST_CASE("a node that is pulled leaves in the same step") {
+TEST_CASE("a node pulled off the tool separates in the same step") {
   Problem<Smooth> block{{.body = mesh::rectangle({.cells = {1, 1}}),
                          .material = {.young = 1e4, .poisson = 0},
-                         .time_integration = {.density = 1},
+                         .density = 1,
                          .contacts = {{.side = "bottom",
                                        .tool = rigid::line({0, 0}, {1, 0}),
                                        .enforcement = stiff<Smooth>(100),
@@ -186,12 +186,12 @@ TEST_CASE("a node that is pulled leaves in the same step") {
   REQUIRE(march.outcome());
 }
 
-TEST_CASE("a support takes what the tool does to its nodes, once") {
+TEST_CASE("a reaction contains the contact force at its nodes once") {
   // Driven into a wall with all the block at that velocity: nothing is strained, support and tool hold each other.
   Problem<Smooth> block{
       {.body = mesh::rectangle({.cells = {2, 2}}),
        .material = {.young = 1e3, .poisson = 0},
-       .time_integration = {.density = 1},
+       .density = 1,
        .contacts = {
            {.side = "bottom", .tool = rigid::line({0, 0}, {1, 0}), .enforcement = {.normal = 100}, .name = "wall"}}}};
   for (const char* side : {"bottom", "top"}) block.drive(side, 1, [](Real t) { return -t; });
@@ -216,7 +216,7 @@ std::unique_ptr<Problem<Damped>> plated(const V& centre, const rigid::Tool<2>& p
   return std::make_unique<Problem<Damped>>(Problem<Damped>::Parameters{
       .body = mesh::rectangle({.origin = centre - V(0.5, 0.5), .size = {1, 1}, .cells = {1, 1}}),
       .material = {.young = 1e4, .poisson = 0.3},
-      .time_integration = {.density = 1},
+      .density = 1,
       .damping = {.tau = 1e-2},
       .contacts = {{.side = side,
                     .tool = plate,
@@ -237,7 +237,7 @@ TEST_CASE("a tool that accelerates pushes with mass times acceleration") {
   for (Index n = 0; n < 4; ++n) CHECK(block->inertia().velocity()[2 * n + 1] == doctest::Approx(4).epsilon(1e-3));
 }
 
-TEST_CASE("a block that sticks to a turning plate is held on its circle") {
+TEST_CASE("a block that sticks to a rotating plate moves on its circle") {
   const auto block = plated(
       {0, 9.5}, rigid::line({0, 10}, {-1, 0}),
       [](Real t) {
@@ -256,7 +256,7 @@ TEST_CASE("a block that sticks to a turning plate is held on its circle") {
   REQUIRE(march.outcome());
 }
 
-TEST_CASE("a force on a turning normal stands halfway, and its impulse is bounded") {
+TEST_CASE("a force on a rotating normal has the direction halfway through the step, and its impulse is bounded") {
   const auto at = [](Real angle) { return V(std::cos(angle), std::sin(angle)); };
   const V force = 3 * at(0.9);  // of any direction against the normal
   CHECK((halfway<2>(at(0.1), at(0.5), force) - 3 * at(0.7)).norm() < 1e-14);
@@ -275,11 +275,11 @@ TEST_CASE("a force on a turning normal stands halfway, and its impulse is bounde
   CHECK(persistent(0, -1, -0.5) == -0.5);
 }
 
-TEST_CASE("damping takes tau omega / 2 of critical, and the books know it") {
+TEST_CASE("stiffness damping has the ratio tau omega / 2, and its work is in the energy balance") {
   Problem<Damped> rod{
       {.body = mesh::rectangle({.size = {1, length}, .cells = {1, 20}}),
        .material = {.young = 1e4, .poisson = 0},
-       .time_integration = {.density = 1e-2, .scheme = newmark()},
+       .density = 1e-2, .time_integration = {.scheme = newmark()},
        .damping = {.tau = 2e-4},
        .contacts = {
            {.side = "top", .tool = rigid::line({0, 20}, {-1, 0}), .enforcement = {.normal = 1, .tangential = 1}}}}};
@@ -302,7 +302,7 @@ std::unique_ptr<Problem<Damped>> slider(Real tau, Real mu, const TimeScheme& sch
   auto block = std::make_unique<Problem<Damped>>(Problem<Damped>::Parameters{
       .body = mesh::rectangle({.size = {1, 0.5}, .cells = {8, 4}}),
       .material = {.young = 1e7, .poisson = 0.3},
-      .time_integration = {.density = 1000, .scheme = scheme},
+      .density = 1000, .time_integration = {.scheme = scheme},
       .damping = {.tau = tau},
       .contacts = {{.side = "bottom",
                     .tool = rigid::line({0, 0}, {1, 0}),
@@ -342,7 +342,7 @@ TEST_CASE("with 3 ms of damping a soft block slides down a slope as a rigid one 
   }
 }
 
-TEST_CASE("without damping friction's flutter grows as its eigenvalue says, and there is none without friction") {
+TEST_CASE("without damping flutter by friction grows as its eigenvalue predicts, and there is none without friction") {
   for (const Real mu : {0.0, 0.49}) {
     CAPTURE(mu);
     // Steady sliding in large steps, which damp all vibrations; then small ones, and a disturbance of 1e-6.
@@ -407,13 +407,13 @@ TEST_CASE("a restart in contact continues bit for bit") {
   CHECK((again->inertia().velocity().array() == whole->inertia().velocity().array()).all());
 }
 
-TEST_CASE("energy that the scheme gains is told, and ends the run on request") {
+TEST_CASE("energy gained by the scheme warns, and ends the run on request") {
   // The trapezoidal rule on large rotations: averaged forces are no gradient.
   const auto swaying = [](MarchOptions options, RunReport& report, Outcome& outcome) {
     Problem<Smooth> block{
         {.body = mesh::rectangle({.size = {1, 2}, .cells = {1, 2}}),
          .material = {.young = 100, .poisson = 0.3},
-         .time_integration = {.density = 1, .scheme = newmark()},
+         .density = 1, .time_integration = {.scheme = newmark()},
          .contacts = {{.side = "top", .tool = rigid::line({0, 20}, {-1, 0}), .enforcement = {.normal = 1}}}}};
     block.hold("bottom", 0).hold("bottom", 1);
     block.start_velocity([](const V& x) { return V(2.5 * x[1], 0); });
@@ -440,7 +440,7 @@ TEST_CASE("energy that the scheme gains is told, and ends the run on request") {
   CHECK(outcome.message().find(coarse[0].text) != std::string::npos);
   CHECK(refused.size() == 1);
   Problem<Smooth> any{
-      {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .time_integration = {.density = 1}}};
+      {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .density = 1}};
   CHECK_THROWS_WITH_AS((void)any.march({.energy_gain = -1}), "march: the energy gain must not be negative",
                        std::invalid_argument);
 }
@@ -448,7 +448,7 @@ TEST_CASE("energy that the scheme gains is told, and ends the run on request") {
 TEST_CASE("a damping without a time constant is refused by name") {
   CHECK_THROWS_WITH_AS(
       (Problem<Damped>{
-          {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .time_integration = {.density = 1}}}),
+          {.body = mesh::rectangle({}), .material = {.young = 1, .poisson = 0}, .density = 1}}),
       "stiffness damping: the time constant tau must be positive", std::invalid_argument);
 }
 

@@ -26,12 +26,12 @@ Real deflection(Index cells, Real poisson) {
 using Mean = MeanDilatation<Quad4>;
 using Plain = FullyIntegrated<Quad4>;
 
-TEST_CASE("Cook's membrane, compressible, against other programs") {
+TEST_CASE("the compressible Cook's membrane has the tip displacement of other programs") {
   // Linear, plane strain, E = 70, nu = 1/3: 32.20 to 32.28 by CalculiX, Code_Aster and Elmer (CoFEA benchmarks).
   CHECK(deflection<Mean>(32, 1.0 / 3) * 240.565 / 70 == doctest::Approx(32.24).epsilon(0.01));
 }
 
-TEST_CASE("the mean dilatation does not lock where the plain element does") {
+TEST_CASE("in the plane the mean dilatation does not lock where full integration does") {
   const Real reference = deflection<Mean>(32, 0.4999);
   const Real mean4 = deflection<Mean>(4, 0.4999), mean8 = deflection<Mean>(8, 0.4999),
              mean16 = deflection<Mean>(16, 0.4999);
@@ -46,7 +46,7 @@ TEST_CASE("the mean dilatation does not lock where the plain element does") {
   CHECK(deflection<Plain>(16, 0.3) == doctest::Approx(deflection<Mean>(16, 0.3)).epsilon(0.02));
 }
 
-TEST_CASE("the guess of a step goes with its size") {
+TEST_CASE("the extrapolated displacement of a step is proportional to its size") {
   // Pressed so little that the path is straight, without variables of its own: where the first step leads, the guesses
   // of all others are right.
   using M = Lone<EigenLdlt, Hencky, PlaneStrain, Plain>;

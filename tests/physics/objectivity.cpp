@@ -15,8 +15,8 @@ namespace objectivity {
 
 using namespace scene;
 
-TEST_CASE_TEMPLATE("materials: P(Q F) = Q P(F)", M, Hencky, FiniteJ2<LinearHardening>, FiniteJ2<PowerHardening>,
-                   HypoelasticJ2<PowerHardening>) {
+TEST_CASE_TEMPLATE("a superposed rotation rotates the stress of every material", M, Hencky, FiniteJ2<LinearHardening>,
+                   FiniteJ2<PowerHardening>, HypoelasticJ2<PowerHardening>) {
   Tensor<Real, Planar> F, G;
   F.v << 1.1, 0.2, -0.1, 0.95, 1.02;
   G.v << 1.5, 0.3, 0.2, 0.8, 0.9;
@@ -37,24 +37,24 @@ void check_element() {
   for (const Real angle : {0.7, pi / 2, 2.9})
     CHECK(verify::element_objectivity(element, {Vec<Real, 8>(0.3 * u), u}, angle) < 1e-11);
 }
-TEST_CASE("elements: a superposed rotation turns the nodal forces") {
+TEST_CASE("a superposed rotation rotates the nodal forces of every element") {
   check_element<MeanDilatation<Quad4>>();
   check_element<FullyIntegrated<Quad4>>();
 }
 
-TEST_CASE("contact: body and tool that turn together feel nothing of it") {
+TEST_CASE("contact forces of a body and tool that rotate together only rotate") {
   using M = Model<EigenLdlt, QuasiCoulomb, FiniteJ2<LinearHardening>>;
   const Real turn = 2.3;
   const V centre(3, -1);
   const auto pose = [&](Real t) { return t <= 1 ? rigid::turned(0, centre) : rigid::turned(turn, centre); };
-  Body<M> body(mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}), {}, material<FiniteJ2<LinearHardening>>());
+  Bodies<M> body(mesh::rectangle({.size = {2, 1}, .cells = {4, 2}}), {}, material<FiniteJ2<LinearHardening>>());
   ContactPairs<M> pairs;
   pairs.emplace_back(Contact<M>{.side = "bottom",
                                 .tool = rigid::disc({1, -3}, 3),
                                 .motion = pose,
                                 .friction = {.mu = 0.3},
                                 .enforcement = {.normal = 1e4, .tangential = 1e3}},
-                     body.mesh(), body.kinematics());
+                     body);
   typename System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {}, {});
   Field u = Field::Zero(system.dofs().components());
@@ -101,7 +101,7 @@ TEST_CASE("contact: body and tool that turn together feel nothing of it") {
   CHECK((system.forces().residual - expected).norm() < 1e-10 * expected.norm());
 }
 
-TEST_CASE("contact in space: body and tool that turn together about a skew axis feel nothing of it") {
+TEST_CASE("contact forces of a body and tool that rotate together about a skew axis only rotate") {
   using M = Model<EigenLdlt, QuasiCoulomb, FiniteJ2<LinearHardening>, ThreeDimensional, MeanDilatation<Hex8>>;
   using W = Vec<Real, 3>;
   rigid::Pose<3> turning;
@@ -109,14 +109,14 @@ TEST_CASE("contact in space: body and tool that turn together about a skew axis 
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) turning.rotation(i, j) = R(i, j);
   turning.translation = W(3, -1, 2);
-  Body<M> body(mesh::box({.size = {2, 1, 1}, .cells = {4, 2, 2}}), {}, material<FiniteJ2<LinearHardening>>());
+  Bodies<M> body(mesh::box({.size = {2, 1, 1}, .cells = {4, 2, 2}}), {}, material<FiniteJ2<LinearHardening>>());
   ContactPairs<M> pairs;
   pairs.emplace_back(Contact<M>{.side = "back",  // z = 0
                                 .tool = rigid::sphere({1, 0.5, -3}, 3),
                                 .motion = [&](Real t) { return t <= 1 ? rigid::Pose<3>{} : turning; },
                                 .friction = {.mu = 0.3},
                                 .enforcement = {.normal = 1e4, .tangential = 1e3}},
-                     body.mesh(), body.kinematics());
+                     body);
   typename System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {}, {});
   Field u = Field::Zero(system.dofs().components());

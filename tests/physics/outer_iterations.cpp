@@ -41,7 +41,7 @@ Run run(Real mu, const E& enforcement, Index steps = 10, Real outer_tolerance = 
   return {problem.displacement(), problem.contact_force("tool"), march.report(), march.report().outer_iterations};
 }
 
-TEST_CASE("bounds that passes bring up to date give the answer of the current pressure, symmetrically") {
+TEST_CASE("bounds updated by outer iterations give the answer of the current pressure with symmetric matrices") {
   const Penalty penalty{.normal = 1e5, .tangential = 2e4};
   static_assert(system_symmetry<With<EigenLdlt, LagIteratedCoulomb, Penalty>> == Symmetry::symmetric);
   const Run exact = run<With<EigenLu, Coulomb, Penalty>>(0.2, penalty);
@@ -61,7 +61,7 @@ TEST_CASE("bounds that passes bring up to date give the answer of the current pr
   }
 }
 
-TEST_CASE("a symmetrised tangent comes to the same answer in more iterations") {
+TEST_CASE("a symmetrised tangent gives the same answer in more iterations") {
   const Penalty penalty{.normal = 1e5, .tangential = 2e4};
   using Symmetric = With<EigenLdlt, WithPressure<Coulomb, Symmetrised>, Penalty>;
   static_assert(system_symmetry<Symmetric> == Symmetry::symmetric);
@@ -73,7 +73,7 @@ TEST_CASE("a symmetrised tangent comes to the same answer in more iterations") {
   CHECK(symmetrised.report.iterations < 5 * exact.report.iterations);
 }
 
-TEST_CASE("augmented Lagrangian: no penetration is left, whatever the stiffness, and nothing has to be chosen") {
+TEST_CASE("the augmented Lagrangian leaves no penetration at any stiffness, also at the default one") {
   using General = With<EigenLu, Coulomb, AugmentedLagrangian>;
   using Symmetric = With<EigenLdlt, LagIteratedCoulomb, AugmentedLagrangian>;
   static_assert(system_symmetry<General> == Symmetry::general);
@@ -110,14 +110,14 @@ TEST_CASE("augmented Lagrangian: no penetration is left, whatever the stiffness,
   CHECK(last < 1e-2);
 }
 
-TEST_CASE("a penalty in parts of the body's stiffness does not know the units") {
+TEST_CASE("a penalty relative to the body's stiffness gives a small penetration without a choice of units") {
   const Penalty penalty{.normal = 10, .tangential = 1, .per = PenaltyPer::stiffness};
   const Run r = run<With<EigenLu, Coulomb, Penalty>>(0.2, penalty);
   CHECK(r.report.max_penetration < 0.02);
   CHECK(r.report.max_penetration > 1e-4);
 }
 
-TEST_CASE("a pass that cannot settle fails its step and says so") {
+TEST_CASE("outer iterations that do not converge fail their step by name") {
   using M = With<EigenLdlt, LagIteratedCoulomb, Penalty>;
   Problem<M> problem{{.body = mesh::rectangle({.size = {10, 5}, .cells = {4, 2}}),
                       .material = material<Hencky>(),
@@ -135,7 +135,7 @@ TEST_CASE("a pass that cannot settle fails its step and says so") {
   CHECK(problem.time() == 0);
 }
 
-TEST_CASE("a step that is refused after its passes leaves neither multipliers nor stiffnesses behind") {
+TEST_CASE("a step rejected after its outer iterations restores multipliers and penalty scales") {
   using M = With<EigenLdlt, LagIteratedCoulomb, AugmentedLagrangian>;
   const auto scene = [] {
     auto p = std::make_unique<Problem<M>>(
@@ -172,7 +172,7 @@ TEST_CASE("a step that is refused after its passes leaves neither multipliers no
   CHECK(refused->displacement() == fresh->displacement());
 }
 
-TEST_CASE("passes that are given up leave no trace") {
+TEST_CASE("abandoned outer iterations leave no trace") {
   // Bounds and multipliers, so soft that they are stiffened within a step.
   using M = With<EigenLdlt, LagIteratedCoulomb, AugmentedLagrangian>;
   const auto run = [](bool troubled) {
@@ -214,7 +214,7 @@ TEST_CASE("passes that are given up leave no trace") {
 
 struct Mixed : With<EigenLu, PerContact<Coulomb, Frictionless>, Penalty> {};
 
-TEST_CASE("a law for each kind of contact: the same answers as alone, and no memory where there is none") {
+TEST_CASE("laws of several contacts give the same answers as alone and keep no memory that they do not need") {
   static_assert(ContactPair<Mixed, Frictionless>::bytes_per_node == 0);
   static_assert(ContactPair<Mixed, Coulomb>::bytes_per_node == 3 * sizeof(Real));
   static_assert(std::is_empty_v<decltype(Contact<Mixed, Frictionless>::friction)>);

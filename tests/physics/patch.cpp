@@ -30,13 +30,13 @@ Mat<Real, 2> turned() {  // u_r = a r, u_z = b z is homogeneous about an axis
 using Plain = FullyIntegrated<Quad4>;
 using Mean = MeanDilatation<Quad4>;
 
-TEST_CASE("patch test of the body, Hencky") {
+TEST_CASE("plane and axisymmetric Hencky elements pass the patch test") {
   check_body<Lone<EigenLdlt, Hencky, PlaneStrain, Mean>>(plane(), 4);
   check_body<Lone<EigenLdlt, Hencky, PlaneStrain, Plain>>(plane(), 4);
   check_body<Lone<EigenLdlt, Hencky, Axisymmetric, Mean>>(turned(), 4);
   check_body<Lone<EigenLdlt, Hencky, Axisymmetric, Plain>>(turned(), 4);
 }
-TEST_CASE("patch test of the body, plastic") {
+TEST_CASE("plane and axisymmetric plastic elements pass the patch test") {
   check_body<Lone<EigenLdlt, FiniteJ2<PowerHardening>, PlaneStrain, Mean>>(plane(), 8);
   check_body<Lone<EigenLdlt, FiniteJ2<PowerHardening>, Axisymmetric, Mean>>(turned(), 8);
 }
@@ -72,13 +72,13 @@ Real pressure_spread(PenaltyPer per) {
   CHECK(p.reaction("bottom", 1) == doctest::Approx(p.contact_force("top")[1]).epsilon(1e-10));
   return (high - low) / high;
 }
-TEST_CASE("contact patch test: a stiffness per area gives a uniform pressure, one per node does not") {
+TEST_CASE("in the contact patch test a stiffness per area gives a uniform pressure, one per node does not") {
   CHECK(pressure_spread<Model<EigenLdlt>>(PenaltyPer::area) < 1e-9);
   CHECK(pressure_spread<Model<EigenLdlt, Frictionless, Hencky, Axisymmetric>>(PenaltyPer::area) < 1e-9);
   CHECK(pressure_spread<Model<EigenLdlt>>(PenaltyPer::node) > 1e-2);
 }
 
-TEST_CASE("what a unit of stiffness stands for") {
+TEST_CASE("the penalty force is stiffness times tributary measure times penetration in every unit") {
   // A node in the middle of a side, alone against the edge of a narrow tool: force = stiffness x measure x penetration.
   const auto force = [](auto tag, PenaltyPer per, Real thickness) {
     using M = decltype(tag);

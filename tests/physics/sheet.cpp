@@ -50,7 +50,7 @@ void run(Problem<Model>& sheet) {
   REQUIRE(march.finish());
 }
 
-TEST_CASE("a quarter of a round sheet in space does what the axisymmetric sheet does") {
+TEST_CASE("a quarter of a round sheet in space has the forces of the axisymmetric sheet") {
   Problem<Section> section = make_sheet<Section>(mesh::rectangle({.size = {rim, 1}, .cells = {14, 2}}),
                                                  [](const rigid::Profile& p) { return p; });
   section.hold("left", 0).hold("right", 0).hold("right", 1);

@@ -136,7 +136,7 @@ TEST_CASE("all solvers agree on a run of press and drag") {
   }
   CHECK(difference(reference.quasi, reference.coulomb) > 1e-4);  // two laws
 }
-TEST_CASE("positive, indefinite and singular matrices") {
+TEST_CASE("every solver solves positive matrices, and solves or refuses indefinite and singular ones by name") {
   for (const auto& entry : outcomes()) {
     const std::string& name = entry.first;
     const Outcome& o = entry.second;
@@ -155,7 +155,7 @@ TEST_CASE("positive, indefinite and singular matrices") {
     check_solution(o.again, positive);
   }
 }
-TEST_CASE("a matrix without digits is judged alike by all direct solvers") {
+TEST_CASE("all direct solvers give the same verdict on ill-conditioned matrices") {
   for (const auto& entry : outcomes()) {
     if (iterative(entry.first)) continue;
     CAPTURE(entry.first);
@@ -171,7 +171,7 @@ TEST_CASE("a matrix without digits is judged alike by all direct solvers") {
     }
   }
 }
-TEST_CASE("a run without digits is refused by name by all solvers, and a stiff one is the same by all") {
+TEST_CASE("all solvers refuse a run without digits by name and agree on a stiff one") {
   const auto& reference = outcomes().at("EigenLu");
   for (const auto& entry : outcomes()) {
     CAPTURE(entry.first);
@@ -186,7 +186,7 @@ TEST_CASE("a run without digits is refused by name by all solvers, and a stiff o
     if (!iterative(entry.first)) CHECK(difference(entry.second.stiff, reference.stiff) < 1e-8);
   }
 }
-TEST_CASE("negative pivots are the negative eigenvalues, of all solvers that tell them") {
+TEST_CASE("all solvers that report negative pivots report the number of negative eigenvalues") {
   const auto count = [](const Matrix& m) {
     const Eigen::VectorXd all =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(m), Eigen::EigenvaluesOnly).eigenvalues();

@@ -84,7 +84,8 @@ Told factorized(Index n, rlim_t bytes) {
 #endif
 #endif
 #if !defined(__SANITIZE_ADDRESS__) && !defined(ADDRESSES_CANNOT_BE_LIMITED)
-TEST_CASE_TEMPLATE("a factor that does not fit", Solver, Cholmod, Umfpack, MumpsLdlt, MumpsLu) {
+TEST_CASE_TEMPLATE("a factor that does not fit into memory is refused as such", Solver, Cholmod, Umfpack, MumpsLdlt,
+                   MumpsLu) {
   CHECK(factorized<Solver>(12, rlim_t(1) << 30) == done);
   CHECK(factorized<Solver>(36, rlim_t(1) << 26) == no_memory);
 }
@@ -109,7 +110,8 @@ std::size_t bytes_of_chain(Index n) {
   CHECK(solver.factorize(chain.view()) == Factorization::done);
   return solver.factor_bytes();
 }
-TEST_CASE_TEMPLATE("a factor tells its memory", Solver, EigenLdlt, EigenLu, Cholmod, Umfpack, MumpsLdlt, MumpsLu) {
+TEST_CASE_TEMPLATE("a sparse factor reports its memory", Solver, EigenLdlt, EigenLu, Cholmod, Umfpack, MumpsLdlt,
+                   MumpsLu) {
   const std::size_t one = bytes_of_chain<Solver>(1000), ten = bytes_of_chain<Solver>(10000);
   MESSAGE(one << " bytes of 1000 unknowns, " << ten << " of 10 000");
   CHECK(one > 1999 * sizeof(Real));
@@ -117,7 +119,7 @@ TEST_CASE_TEMPLATE("a factor tells its memory", Solver, EigenLdlt, EigenLu, Chol
   CHECK(ten > 5 * one);  // ten times as much, but for what goes by blocks
   CHECK(ten < 20 * one);
 }
-TEST_CASE("a band tells its memory") {
+TEST_CASE("a band factor reports its memory") {
   CHECK(bytes_of_chain<BandedCholesky>(1000) == 2 * 1000 * sizeof(Real));
   CHECK(bytes_of_chain<BandedLu>(1000) == 4 * 1000 * sizeof(Real) + 1000 * sizeof(int));  // one more, for pivoting
 }

@@ -66,15 +66,16 @@ void check_order(F error) {
   CHECK(std::log2(e8 / e16) > 1.9);
   CHECK(std::log2(e8 / e16) < 2.1);
 }
-TEST_CASE("thick cylinder, axisymmetric: second order towards Lame") {
+TEST_CASE("the axisymmetric thick cylinder converges to Lame's solution at second order") {
   check_order(axisymmetric);
 }
-TEST_CASE("thick cylinder, a quarter in plane strain: second order towards Lame") {
+TEST_CASE("a quarter of the thick cylinder in plane strain converges to Lame's solution at second order") {
   check_order(plane);
 }
 
 // Round-off in F = 1 + H, times the bulk modulus, had this stall in 23 attempts.
-TEST_CASE("a tube under a load so small that F has few digits of its strain, nearly incompressible, tight tolerances") {
+TEST_CASE(
+    "a nearly incompressible tube under a tiny load meets tight tolerances, though F holds few digits of its strain") {
   for (const Real nu : {0.3, 0.499, 0.49999})
     for (const Real tolerance : {1e-10, 1e-12})
       for (const Real load : {1e-6, 1e-3}) {

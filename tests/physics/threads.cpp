@@ -50,7 +50,7 @@ std::vector<std::vector<Real>> all(const std::vector<Job>& jobs, int threads) {
   return results;
 }
 
-TEST_CASE("runs side by side in one, two and four threads leave the same bits") {
+TEST_CASE("concurrent runs in one, two and four threads give the same bits") {
   using Metal = FiniteJ2<LinearHardening>;
   std::vector<Job> jobs;
   for (const Real mu : {0.1, 0.2, 0.3}) {

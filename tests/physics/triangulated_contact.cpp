@@ -74,7 +74,7 @@ rigid::Triangulated triangles(int level) {
   return rigid::Triangulated(s);
 }
 
-TEST_CASE("a ball of triangles presses and rubs as a ball") {
+TEST_CASE("a triangulated ball has the contact forces of a sphere") {
   const Result exact = rub(rigid::sphere({0, 0, 0}, 3), drawn);
   Real before = 0;
   for (const int level : {1, 2, 3}) {
@@ -89,7 +89,7 @@ TEST_CASE("a ball of triangles presses and rubs as a ball") {
   CHECK(before < 1e-3);
 }
 
-TEST_CASE("a ball of triangles that turns three times in four steps rubs as a ball, by its way") {
+TEST_CASE("a triangulated ball that rotates three times in four steps has the friction work of a sphere") {
   const Result exact = rub(rigid::sphere({0, 0, 0}, 3), turned, 8), made = rub(triangles(3), turned, 8);
   CHECK(exact.force[0] > 0.19 * exact.force[2]);
   CHECK(exact.friction == doctest::Approx(1).epsilon(0.02));

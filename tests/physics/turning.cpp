@@ -64,18 +64,18 @@ Real friction(const Problem<Block<F>>& p) {
   return -torque / (mu * pressure);
 }
 
-TEST_CASE_TEMPLATE("a wheel that turns is held by mu N and slides by its way, whatever its turns a step", F, Coulomb,
-                   QuasiCoulomb) {
+TEST_CASE_TEMPLATE("a rotating wheel is resisted by mu N and slips by its path, at any number of turns a step", F,
+                   Coulomb, QuasiCoulomb) {
   for (const Real part : {0.125, 0.25, 0.5, 1.0, 1.5, 4.0, -1.0}) {
     auto p = wheel<F>(turns(4 * part));
-    verify::EnergyBalance<Block<F>> books(*p);
+    verify::EnergyBalance<Block<F>> balance(*p);
     auto march = p->march({.end = 2, .steps = 4});
     Real before = p->contact("wheel").summary().max_slip;
     verify::Energies first;
     Index steps = 0;
     for (const StepReport& step : march) {
-      books.update(step);
-      if (++steps == 1) first = books.energies();
+      balance.update(step);
+      if (++steps == 1) first = balance.energies();
       // Lags wear off over two steps, as the wheel takes hold.
       CHECK(friction<F>(*p) == doctest::Approx(part > 0 ? 1 : -1).epsilon(steps > 2 ? 1e-3 : 0.01));
       const Real way = 2 * pi * radius * std::abs(part);
@@ -87,12 +87,12 @@ TEST_CASE_TEMPLATE("a wheel that turns is held by mu N and slides by its way, wh
     CHECK(steps == 4);
     CHECK(march.report().iterations <= 10);
     // All that the wheel does on the block, once it slides, is rubbed off.
-    CHECK(books.energies().external - first.external ==
-          doctest::Approx(books.energies().friction - first.friction).epsilon(2e-3));
+    CHECK(balance.energies().external - first.external ==
+          doctest::Approx(balance.energies().friction - first.friction).epsilon(2e-3));
   }
 }
 
-TEST_CASE("a wheel in default automatic steps") {
+TEST_CASE("a rotating wheel takes few of the default automatic steps") {
   auto p = wheel<Coulomb>(turns(4));
   auto march = p->march({.end = 2});
   REQUIRE(march.finish());
@@ -101,7 +101,8 @@ TEST_CASE("a wheel in default automatic steps") {
   CHECK(march.report().max_slip == doctest::Approx(8 * pi * radius).epsilon(2e-3));
 }
 
-TEST_CASE("a body on a wheel of corners, and one that a wheel touches while it turns") {
+TEST_CASE(
+    "a polygonal wheel slips by its circumference, and a wheel that rotates before contact only by the part after it") {
   // A polygon of 24 sides slips by its circumference.
   rigid::Profile polygon({radius * std::tan(pi / 24), -radius}, {-1, 0});
   for (int i = 0; i < 24; ++i) polygon.straight(2 * radius * std::tan(pi / 24)).corner(-2 * pi / 24);
@@ -132,7 +133,7 @@ TEST_CASE("a body on a wheel of corners, and one that a wheel touches while it t
   CHECK(once.report().max_slip == doctest::Approx(0.2 * 4 * pi * radius).epsilon(0.05));
 }
 
-TEST_CASE("a wheel that turns to and fro within a step: the step is cut until it can follow") {
+TEST_CASE("a step in which a wheel oscillates is cut until the slip path is resolved") {
   // Eight times by 0.2 rad; the end is on the way back.
   const auto lag_oscillation = [](Real t) { return 0.2 * std::sin(2 * pi * 8 * t); };
   const auto slide = [&](const MarchOptions& options, Index& rejected) {
@@ -150,7 +151,7 @@ TEST_CASE("a wheel that turns to and fro within a step: the step is cut until it
   CHECK(found == doctest::Approx(right).epsilon(0.01));
 }
 
-TEST_CASE("a tool too quick for any step is refused by name, with its contact") {
+TEST_CASE("a tool too fast for every step is refused with the name of its contact") {
   auto p = wheel<Coulomb>([](Real t) { return 0.2 * std::sin(1e6 * t); });
   auto march = p->march({.end = 2, .smallest = 1e-3});
   CHECK(!march.finish());
@@ -159,7 +160,7 @@ TEST_CASE("a tool too quick for any step is refused by name, with its contact") 
   CHECK(p->time() == doctest::Approx(1));
 }
 
-TEST_CASE("a tool that rests or goes straight is asked for its pose as often as before, and nothing is followed") {
+TEST_CASE("a tool without rotation needs no further poses and no slip path") {
   Index asked = 0;
   const auto run = [&](auto motion) {
     Problem<Block<Coulomb>> p({.body = mesh::rectangle({.size = {4, 2}, .cells = {4, 2}}),
@@ -187,7 +188,7 @@ TEST_CASE("a tool that rests or goes straight is asked for its pose as often as 
   CHECK(run([](Real) { return V(0, 0); }) <= 10);
 }
 
-TEST_CASE("the poses along a step: turns are seen at any rate, and how many it takes") {
+TEST_CASE("poses along a step resolve rotations at any rate") {
   rigid::PosesAlong<2> along;
   const auto take = [&](std::function<Real(Real)> angle) {
     along.take([=](Real t) { return rigid::turned(angle(t), {0, 0}); }, 2, 3);

@@ -51,7 +51,7 @@ Real exact(Real mu) {
   return (slope + mu) / (1 - mu * slope);
 }
 
-TEST_CASE("up a wedge: the current pressure and what comes to it are exact, at any friction") {
+TEST_CASE("on a wedge the current pressure and all sources that converge to it are exact at every friction") {
   for (const Real mu : {0.1, 0.2, 0.5}) {  // kappa of 0.87, 1.7 and 4.3
     const auto check = [mu](const char* name, const Slide& slide) {
       CAPTURE(mu);
@@ -68,7 +68,7 @@ TEST_CASE("up a wedge: the current pressure and what comes to it are exact, at a
   }
 }
 
-TEST_CASE("up a wedge: a lagging bound is right or says that its lag feeds back, at every number of steps") {
+TEST_CASE("on a wedge a lagged bound is right or refused as lag_unstable, at every number of steps") {
   for (const Index steps : {4, 10, 40, 160, 640}) {
     CAPTURE(steps);
     const Slide mild = climb<QuasiCoulomb, EigenLdlt>(0.1, steps);
@@ -99,7 +99,7 @@ TEST_CASE("up a wedge: a lagging bound is right or says that its lag feeds back,
 
 // A block that has lost its wedge has no support along it. A pivoted factorisation goes through on a pivot of round-off
 // and throws the block so far that round-off outweighs the load.
-TEST_CASE("up a wedge: pivoting finds no balance where there is none") {
+TEST_CASE("on a wedge a pivoting solver finds no equilibrium where there is none") {
   for (const Real mu : {0.2, 0.5})
     for (const Index steps : {10, 40, 160}) {
       CAPTURE(mu);

@@ -168,10 +168,10 @@ void necking(Case& c, Index refine) {
   c.near(lagged, exact, 0.01, "the laws' forces at 30 mm");
 }
 const HardCase osu("materials", "the OSU punch at mu = 0.30, 14 x 2", "axisymmetric J2, Coulomb; QuasiCoulomb",
-                   "40 mm; forces balance, books close, laws agree at 30 mm", [](Case& c) { necking(c, 1); });
+                   "40 mm; forces balance, energy balance closes, laws agree at 30 mm", [](Case& c) { necking(c, 1); });
 const HardCase osu_fine(
     "materials", "the OSU punch at mu = 0.30, 56 x 8: it necks", "axisymmetric J2, Coulomb; QuasiCoulomb",
-    "40 mm; forces balance, books close, laws agree at 30 mm", [](Case& c) { necking(c, 4); }, Form::full);
+    "40 mm; forces balance, energy balance closes, laws agree at 30 mm", [](Case& c) { necking(c, 4); }, Form::full);
 const HardCase osu_far(
     "tunnelling", "the OSU punch in steps of 250 mm", "axisymmetric J2, Coulomb; QuasiCoulomb",
     "at the end the punch is still in the sheet, its force that of die and rim", [](Case& c) {
@@ -363,7 +363,7 @@ CaseSetup column(const std::function<Real(Real)>& press, const std::function<Rea
 }
 const HardCase buckling(
     "instabilities", "a column buckles onto a wall", "Frictionless; 6 of Coulomb x solvers",
-    "Euler's load by the column's own bending stiffness; at the wall: books close, laws agree at mu = 0", [](Case& c) {
+    "Euler's load by the column's own bending stiffness; at the wall: energy balance closes, laws agree at mu = 0", [](Case& c) {
       // F = 192 EI w / L^3 gives EI, P = 4 pi^2 EI / L^2.
       CaseSetup bent = column([](Real) { return 0.0; }, [](Real t) { return 0.01 * t; });
       bent.marches = {steps(1, 1)};
@@ -420,7 +420,7 @@ const HardCase rough_wall(
 // A shallow arch, clamped at its feet, pushed down at its crown by a disc.
 const HardCase snap(
     "instabilities", "a shallow arch snaps through under a disc", "Frictionless; 6 of Coulomb x solvers",
-    "force rises and falls; without friction all work is stored energy; books close", [](Case& c) {
+    "force rises and falls; without friction all work is stored energy; energy balance closes", [](Case& c) {
       const auto arch = [](Real mu) {
         CaseSetup s{.body = mesh::rectangle({.size = {20, 0.25}, .cells = {80, 2}}), .young = 1e4, .poisson = 0};
         for (auto& x : s.body.nodes) x[1] += 1.5 * std::sin(pi * x[0] / 20);
@@ -454,7 +454,7 @@ const HardCase snap(
 // The tube of examples/shock_absorber.cpp.
 const HardCase folding(
     "instabilities", "the folding tube at mu = 0.30", "axisymmetric J2 dynamics, QuasiCoulomb, EigenLdlt",
-    "30 mm; books close; work = plastic, friction, elastic and kinetic",
+    "30 mm; energy balance closes; work = plastic, friction, elastic and kinetic",
     [](Case& c) {
       CaseSetup s{.body = mesh::rectangle({.origin = {23.77, 0}, .size = {1.63, 63.5}, .cells = {3, 100}}),
                   .young = 67000,
@@ -545,20 +545,20 @@ void oscillation_count(Case& c, Real radius, Index count, bool bounces) {
   }
 }
 const HardCase conserves("motion", "free swinging, spectral radius 1", "dynamics: Coulomb; QuasiCoulomb",
-                         "10 000 steps: energy never above the start's by 1 %; books close",
+                         "10 000 steps: energy never above the start's by 1 %; energy balance closes",
                          [](Case& c) { oscillation_count(c, 1, 10000, false); });
 const HardCase conserves_long(
     "motion", "free swinging, spectral radius 1, long", "dynamics: Coulomb; QuasiCoulomb",
-    "100 000 steps: energy never above the start's by 1 %; books close",
+    "100 000 steps: energy never above the start's by 1 %; energy balance closes",
     [](Case& c) { oscillation_count(c, 1, 100000, false); }, Form::full);
 const HardCase damps("motion", "free swinging, spectral radius 0.5", "dynamics: Coulomb; QuasiCoulomb",
-                     "10 000 steps: books close", [](Case& c) { oscillation_count(c, 0.5, 10000, false); });
+                     "10 000 steps: energy balance closes", [](Case& c) { oscillation_count(c, 0.5, 10000, false); });
 const HardCase chatters("motion", "a block dropped askew on a rough floor: rebound and chatter",
-                        "dynamics: Coulomb; QuasiCoulomb", "5000 steps: books close",
+                        "dynamics: Coulomb; QuasiCoulomb", "5000 steps: energy balance closes",
                         [](Case& c) { oscillation_count(c, 0.5, 5000, true); });
 const HardCase chatters_long(
     "motion", "rebound and chatter, long, spectral radius 0.5", "dynamics: Coulomb; QuasiCoulomb",
-    "100 000 steps: books close", [](Case& c) { oscillation_count(c, 0.5, 100000, true); }, Form::full);
+    "100 000 steps: energy balance closes", [](Case& c) { oscillation_count(c, 0.5, 100000, true); }, Form::full);
 
 // --- impact
 

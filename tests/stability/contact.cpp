@@ -327,9 +327,9 @@ void no_drift(Case& c, Index cycles) {
     }
 }
 const HardCase drift("steps", "10 000 steps to and fro", "Coulomb; QuasiCoulomb",
-                     "no drift (1e-8), sticking or sliding; books close", [](Case& c) { no_drift(c, 500); });
+                     "no drift (1e-8), sticking or sliding; energy balance closes", [](Case& c) { no_drift(c, 500); });
 const HardCase long_drift(
-    "steps", "100 000 steps to and fro", "Coulomb; QuasiCoulomb", "no drift (1e-8), sticking or sliding; books close",
+    "steps", "100 000 steps to and fro", "Coulomb; QuasiCoulomb", "no drift (1e-8), sticking or sliding; energy balance closes",
     [](Case& c) { no_drift(c, 5000); }, Form::full);
 
 }  // namespace

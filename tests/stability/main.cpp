@@ -20,8 +20,8 @@ namespace {
 
 const char* const marker = "<!-- what follows is written by ./check --stability -->";
 const char* const head =
-    "| group | case | model | outcome | steps / iterations / cut | worst | asserted "
-    "|\n|---|---|---|---|---|---|---|\n";
+    "| group | case | model | outcome | steps / iterations / cut | worst balance | worst answer | asserted |\n"
+    "|---|---|---|---|---|---|---|---|\n";
 
 // Puts the text behind the marker of a file.
 bool write(const std::string& path, const std::string& text) {

@@ -65,7 +65,7 @@ struct CaseResultOf {
   verify::Energies energies;
   Real time = 0, plastic = 0;
   std::vector<Warning> warnings{};  ///< of all marches
-  Real unbalanced = 0;              ///< largest defect of the energy books over the largest amount in them
+  Real unbalanced = 0;              ///< largest error of the energy balance over its largest term
 
   const Outcome& outcome() const { return outcomes.back(); }
 };
@@ -113,11 +113,11 @@ const TestedModel& anisotropic();          ///< Coulomb's friction with an ellip
 const std::vector<TestedModel>& moving();  ///< elastic with inertia: laws
 }  // namespace space
 
-/// Counts a run in a case and holds its books to a limit.
+/// Counts a run in a case and checks its energy balance against a limit.
 template <int dim>
 void take(Case& c, const CaseResultOf<dim>& result, Real limit = 1e-6) {
   c.counts(result.report.steps, result.report.iterations, result.report.rejected_steps);
-  c.books(result.unbalanced, limit);
+  c.energy_balance(result.unbalanced, limit);
 }
 /// Plays a scene that must run to its end.
 template <int dim>
@@ -149,7 +149,7 @@ CaseResultOf<dim> run_case(const CaseSetupOf<dim>& setup, const LookOf<dim>& loo
     material.hardening.exponent = setup.exponent;
   }
   if constexpr (has_inertia<M>) {
-    parameters.time_integration.density = setup.density;
+    parameters.density = setup.density;
     parameters.time_integration.scheme = setup.scheme.value_or(chung_hulbert(setup.radius));
   }
   if constexpr (has_contact<M>)
@@ -178,16 +178,16 @@ CaseResultOf<dim> run_case(const CaseSetupOf<dim>& setup, const LookOf<dim>& loo
   const std::function<Real(const std::string&, Index)> reaction = [&](const std::string& side, Index component) {
     return problem.reaction(side, component);
   };
-  std::optional<verify::EnergyBalance<M>> ledger;
-  Real amount = 0, defect = 0;
+  std::optional<verify::EnergyBalance<M>> balance;
+  Real amount = 0, error = 0;
   for (const MarchOptions& options : setup.marches) {
     auto march = problem.march(options);
-    if (!ledger) ledger.emplace(problem);
+    if (!balance) balance.emplace(problem);
     for (const StepReport& step : march) {
-      ledger->update(step);
-      const verify::Energies& e = ledger->energies();
+      balance->update(step);
+      const verify::Energies& e = balance->energies();
       amount = std::max({amount, std::abs(e.external), e.kinetic, e.elastic + e.penalty, e.plastic, e.friction});
-      defect = std::max(defect, std::abs(e.unbalanced()));
+      error = std::max(error, std::abs(e.unbalanced()));
       if (look) look({step, problem.displacement(), records, reaction, e});
     }
     out.outcomes.push_back(march.outcome());
@@ -203,10 +203,10 @@ CaseResultOf<dim> run_case(const CaseSetupOf<dim>& setup, const LookOf<dim>& loo
   out.u = problem.displacement();
   for (const auto* record : records) out.forces.push_back(record->force());
   if (!records.empty()) out.nodes = records[0]->states();
-  out.energies = ledger->energies();
+  out.energies = balance->energies();
   out.time = problem.time();
   out.plastic = problem.max_plastic_strain();
-  out.unbalanced = amount > 0 ? defect / amount : 0;
+  out.unbalanced = amount > 0 ? error / amount : 0;
   return out;
 }
 

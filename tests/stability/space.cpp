@@ -1124,14 +1124,14 @@ void drops(Case& c, Index count, Real mu) {
 }
 const HardCase dropped("space: motion", "a cube dropped on its corner: rebound, tumbling and chatter",
                        "dynamics: Coulomb; QuasiCoulomb; Hex8",
-                       "600 steps: books close, no energy out of nothing; smooth floor: momentum along it",
+                       "600 steps: energy balance closes, no energy out of nothing; smooth floor: momentum along it",
                        [](Case& c) {
                          drops(c, 600, 0);
                          drops(c, 600, 0.3);
                        });
 const HardCase dropped_long(
     "space: motion", "the same, long", "dynamics: Coulomb; QuasiCoulomb; Hex8",
-    "20 000 steps: books close, no energy out of nothing", [](Case& c) { drops(c, 20000, 0.3); }, Form::full);
+    "20 000 steps: energy balance closes, no energy out of nothing", [](Case& c) { drops(c, 20000, 0.3); }, Form::full);
 
 }  // namespace
 }  // namespace stability::space

@@ -28,14 +28,14 @@ class Case {
   void require(bool holds, const std::string& claim) {
     if (!holds) wrong_.push_back(claim);
   }
-  /// |value - exact| <= tolerance |exact|; the largest such defect of the case is printed.
+  /// |value - exact| <= tolerance |exact|; the largest such error of the case is printed.
   void near(Real value, Real exact, Real tolerance, const std::string& claim) {
     small(std::abs(value - exact) / (exact != 0 ? std::abs(exact) : 1), tolerance, claim);
   }
-  /// A defect that must not exceed its limit.
-  void small(Real defect, Real limit, const std::string& claim) {
-    worst_ = std::max(worst_, std::isfinite(defect) ? defect : std::numeric_limits<Real>::infinity());
-    if (!(defect <= limit)) wrong_.push_back(claim + " (off by " + number(defect) + ", allowed " + number(limit) + ")");
+  /// An error that must not exceed its limit.
+  void small(Real error, Real limit, const std::string& claim) {
+    worst_ = std::max(worst_, std::isfinite(error) ? error : std::numeric_limits<Real>::infinity());
+    if (!(error <= limit)) wrong_.push_back(claim + " (off by " + number(error) + ", allowed " + number(limit) + ")");
   }
   /// Runs a march to its end, counts its work, and demands that it complete.
   template <class March>
@@ -60,11 +60,11 @@ class Case {
     iterations_ += iterations;
     rejected_ += rejected;
   }
-  /// The books of a run, as far as they are out.
-  void books(Real defect, Real limit) {
-    balance_ = std::max(balance_, defect);
-    if (!(defect <= limit))
-      wrong_.push_back("energy is out of balance by " + number(defect) + ", allowed " + number(limit));
+  /// The error of a run's energy balance over its largest term.
+  void energy_balance(Real error, Real limit) {
+    balance_ = std::max(balance_, error);
+    if (!(error <= limit))
+      wrong_.push_back("energy is out of balance by " + number(error) + ", allowed " + number(limit));
   }
   /// Ends in a refusal that was asked for.
   void refused_for(FailureCause cause, const std::vector<FailureCause>& causes, const std::string& message) {
@@ -99,9 +99,9 @@ class Case {
   Index steps() const { return steps_; }
   Index iterations() const { return iterations_; }
   Index rejected() const { return rejected_; }
-  /// The worst of the claims' defects.
+  /// The worst error of the compared quantities.
   Real worst() const { return worst_; }
-  /// The worst of the books' defects, over what is in them, or of the residuals over the force scale.
+  /// The worst relative error of the energy balance, or residual over the force scale.
   Real balance() const { return balance_; }
   const std::string& noted() const { return note_; }
 

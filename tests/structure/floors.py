@@ -11,7 +11,7 @@ import sys
 
 MODELS = {"kinematics", "element", "material", "friction", "enforcement", "time_integration", "damping", "linear_solver"}
 FLOORS = [
-    {"base"},
+    {"base", "version.hpp"},
     {"tensor"},
     {"policy", "mesh"},
     MODELS | {"geometry"},

@@ -44,20 +44,20 @@ void check_sources(const Law& law) {
   check_all<WithPressure<Law, LastConverged>>(law);
   check_all<WithPressure<Law, Extrapolated>>(law);
 }
-TEST_CASE("Coulomb at the extrapolated pressure") {
+TEST_CASE("Coulomb's contact tangent at the extrapolated pressure is the derivative of its force") {
   check_all<ExtrapolatedCoulomb>({.mu = 0.3});
 }
-TEST_CASE("capped Coulomb, below its cap and at it, with every source") {
+TEST_CASE("capped Coulomb's tangent is exact below the cap and at it with every pressure source") {
   check_sources(uncapped);
   check_sources(capped);
 }
-TEST_CASE("Tresca, with every source") {
+TEST_CASE("Tresca's tangent is exact with every pressure source") {
   check_sources(tresca);
 }
-TEST_CASE("slip-weakening Coulomb, with every source") {
+TEST_CASE("slip weakening's tangent is exact with every pressure source") {
   check_sources(weakening);
 }
-TEST_CASE("Stribeck, with every source") {
+TEST_CASE("Stribeck's tangent is exact with every pressure source") {
   check_sources(stribeck);
 }
 
@@ -68,7 +68,7 @@ auto slide(const Scene& scene, const typename Friction::Law& law, Real depth, Re
   const auto now = node.template at<Real>(path.back(), node.template preloaded<Real>(path, dt), dt);
   return std::pair(now, verify::contact_tangent(node, path, dt));
 }
-TEST_CASE("the cap: Coulomb to the last bit below it, tau_max A and symmetric at it, a kink between") {
+TEST_CASE("capped Coulomb is Coulomb bit for bit below the cap, tau_max A and symmetric at it") {
   for (const Scene& scene : scenes) {
     const auto [coulomb, exact] = slide<Coulomb>(scene, {.mu = 0.3}, 0.02, 0.3);
     const auto [below, low] = slide<CappedCoulomb>(scene, uncapped, 0.02, 0.3);
@@ -87,7 +87,7 @@ TEST_CASE("the cap: Coulomb to the last bit below it, tau_max A and symmetric at
     }
   }
 }
-TEST_CASE("Tresca: tau A at any depth, and without pressure memory") {
+TEST_CASE("Tresca's bound is tau A at every depth and keeps no pressure") {
   for (const Scene& scene : scenes)
     for (const Real depth : {1e-6, 0.01, 0.2}) {
       const auto now = slide<WithPressure<Tresca, Extrapolated>>(scene, tresca, depth, -0.3).first;
@@ -98,7 +98,7 @@ TEST_CASE("Tresca: tau A at any depth, and without pressure memory") {
     }
   static_assert(sizeof(NodeMemory<Real, 2, Penalty, WithPressure<Tresca, Extrapolated>>) == 3 * sizeof(Real));
 }
-TEST_CASE("slip weakening and Stribeck: the derivatives of mu, and its ends") {
+TEST_CASE("slip weakening and Stribeck have the exact derivatives of mu and its limits") {
   for (const Real x : {0.0, 1e-4, 0.05, 0.7}) {
     const auto slipping = weakening.bound(InterfaceState<Dual<1>>{3, Dual<1>::variable(x, 0)});
     CHECK(slipping.d_slip.value == doctest::Approx(slipping.value.slope[0]).epsilon(1e-14));
@@ -114,7 +114,7 @@ TEST_CASE("slip weakening and Stribeck: the derivatives of mu, and its ends") {
   CHECK(stribeck.coefficient(0.3) == doctest::Approx(0.15 + 0.25 * std::exp(-1)).epsilon(0.02));
   CHECK(stribeck.coefficient(10) == doctest::Approx(0.15));
 }
-TEST_CASE("a step so short that Stribeck's bound falls faster than the sticking spring unloads has a solution") {
+TEST_CASE("the friction return has a solution where Stribeck's bound falls faster than the sticking spring unloads") {
   const Real blink = 1e-4;
   for (const Scene& scene : scenes)
     for (const Real along : {0.1366, 0.14, 0.2, 0.5}) {  // from hardly above the static bound on
@@ -133,7 +133,7 @@ TEST_CASE("a step so short that Stribeck's bound falls faster than the sticking 
     }
 }
 
-TEST_CASE("a step without duration has no speed") {
+TEST_CASE("in a step without duration the slip rate is zero") {
   for (const Scene& scene : scenes) {
     const auto node = node_on<Stribeck>(scene, stribeck);
     const std::vector<V> path{place(scene, -0.01, 0), place(scene, 0.02, 0.3)};
@@ -144,7 +144,7 @@ TEST_CASE("a step without duration has no speed") {
   }
 }
 
-TEST_CASE("a bound of no strength is no friction") {
+TEST_CASE("a law with a bound of zero has the force and stiffness of no friction") {
   for (const Scene& scene : scenes) {
     const auto smooth = slide<Coulomb>(scene, {}, 0.02, 0.3).first;
     const auto equal = [&](const auto& now) {
@@ -166,7 +166,7 @@ Extrapolated::Memory<Real> after(std::initializer_list<std::pair<Real, Real>> st
   for (const auto& [size, pressure] : steps) memory = Extrapolated::advance(pressure, memory, size);
   return memory;
 }
-TEST_CASE("extrapolated pressure: linear in time, weighted by the steps, clipped, and last converged without a trend") {
+TEST_CASE("the extrapolated pressure is linear in time, limited, and the last converged one without a history of two") {
   const auto foretold = [](const auto& memory, Real h) { return Extrapolated::pressure(123.0, memory, h); };
   CHECK(foretold(after({{0.5, 2}, {0.2, 3}}), 0.1) == doctest::Approx(3.5));
   CHECK(foretold(after({{0.5, 2}, {0.2, 1.5}}), 0.4) == doctest::Approx(0.5));
@@ -202,7 +202,7 @@ Real error_after(int steps, Real h, Real kappa, Load&& load) {
   }
   return p - load(steps * h) / (1 + kappa);
 }
-TEST_CASE("lagged pressures settle at the errors, and lose their stability at the ratios, of the theory") {
+TEST_CASE("lagged pressures have the errors and the critical feedback of the theory") {
   const auto constant = [](Real) { return 1.0; };
   CHECK(std::abs(error_after<LastConverged>(400, 1, 0.95, constant)) < 1e-6);
   CHECK(std::abs(error_after<LastConverged>(400, 1, 1.01, constant)) > 0.1);

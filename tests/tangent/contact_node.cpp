@@ -48,14 +48,14 @@ static_assert(friction_symmetry<SlipWeakening>() == Symmetry::general);
 static_assert(friction_symmetry<Quasi<SlipWeakening>>() == Symmetry::symmetric);
 static_assert(friction_symmetry<Adhesion>() == Symmetry::symmetric);
 
-TEST_CASE("Coulomb: every state of a node") {
+TEST_CASE("Coulomb's contact tangent is exact in every state of a node") {
   check_states<Coulomb>({.mu = 0.3});
   for (const Scene& scene : scenes) {  // first contact: the current pressure binds at once
     check<Coulomb>(scene, {.mu = 0.3}, {place(scene, -0.01, 0), place(scene, 0.02, 0.01)}, Expect::sticking);
     check<Coulomb>(scene, {.mu = 0.3}, {place(scene, -0.01, 0), place(scene, 0.02, 0.2)}, Expect::sliding);
   }
 }
-TEST_CASE("Quasi-Coulomb: every state of a node") {
+TEST_CASE("Quasi-Coulomb's contact tangent is exact in every state of a node") {
   check_states<QuasiCoulomb>({.mu = 0.3});
   for (const Scene& scene : scenes) {  // first contact: no converged pressure, the node slides freely
     const std::vector<V> path{place(scene, -0.01, 0), place(scene, 0.02, 0.2)};
@@ -68,15 +68,15 @@ TEST_CASE("Quasi-Coulomb: every state of a node") {
     CHECK(now.memory.friction.pressure.pressure == now.pressure.value);
   }
 }
-TEST_CASE("a user's slip weakening: every state of a node") {
+TEST_CASE("the contact tangent of a user's slip weakening is exact in every state of a node") {
   check_states<SlipWeakening>({});
   check_states<Quasi<SlipWeakening>>({});
 }
-TEST_CASE("a user's adhesion that hardens: every state of a node") {
+TEST_CASE("the contact tangent of a user's hardening adhesion is exact in every state of a node") {
   check_states<Adhesion>({});
 }
 
-TEST_CASE("frictionless: every state of a node") {
+TEST_CASE("the frictionless contact tangent is exact and symmetric in every state of a node") {
   for (const Scene& scene : scenes) {
     const verify::SingleNode<Penalty, Empty<Scene>, Frictionless, rigid::Profile> node{
         .enforcement = penalty, .law = {}, .friction = {}, .tool = scene.tool};
@@ -97,7 +97,7 @@ TEST_CASE("frictionless: every state of a node") {
   }
 }
 
-TEST_CASE("either side of the stick-slip switch") {
+TEST_CASE("contact tangents are exact on either side of the stick-slip switch") {
   check_switch<Coulomb>({.mu = 0.3});
   check_switch<QuasiCoulomb>({.mu = 0.3});
   check_switch<SlipWeakening>({});
@@ -116,7 +116,7 @@ TEST_CASE("Coulomb's tangent is not symmetric while a node slides, and is while 
   }
 }
 
-TEST_CASE("Quasi-Coulomb on a flat tool: the tangent of sliding has no tangential part at all (paper, eq. 22)") {
+TEST_CASE("Quasi-Coulomb's tangent of sliding on a flat tool has no tangential part (paper, eq. 22)") {
   const Scene flat{"flat", rigid::line({0, 0}, {1, 0}), {0, 0}};
   const auto node = node_on<QuasiCoulomb>(flat, {.mu = 0.3});
   const std::vector<V> path{V(0, 0.01), V(0, -0.02), V(0.5, -0.03)};
@@ -136,7 +136,7 @@ TEST_CASE("Quasi-Coulomb on a flat tool: the tangent of sliding has no tangentia
   CHECK(exact.stiffness(1, 0) == 0);
 }
 
-TEST_CASE("friction never gives energy and never exceeds its bound") {
+TEST_CASE("friction never gains energy and never exceeds its bound") {
   check_walk<Coulomb>({.mu = 0.3});
   check_walk<QuasiCoulomb>({.mu = 0.3});
   check_walk<SlipWeakening>({});

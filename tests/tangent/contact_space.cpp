@@ -90,7 +90,7 @@ void check_tangents(const Tool& tool, const typename Friction::Law& law) {
   }
 }
 
-TEST_CASE("tools of a user's own in space: place, and all derivatives") {
+TEST_CASE("tools of a user in space have exact surface coordinates and derivatives") {
   std::mt19937 random(3);
   std::normal_distribution<Real> normal(0, 1);
   for (int i = 0; i < 50; ++i) {
@@ -101,7 +101,9 @@ TEST_CASE("tools of a user's own in space: place, and all derivatives") {
   }
 }
 
-TEST_CASE("space: tangents of every state of a node, symmetric where the source says so") {
+TEST_CASE(
+    "contact tangents in space are exact in every state of a node, and symmetric where the pressure source promises "
+    "it") {
   const Ball ball;
   const Floor floor;
   const AnisotropicCoulomb grooved{.mu_along = 0.2, .mu_across = 0.4, .direction = {1, 0.3, 0.1}};
@@ -118,7 +120,7 @@ TEST_CASE("space: tangents of every state of a node, symmetric where the source 
   check_tangents<Quasi<AnisotropicCoulomb>>(floor, grooved);
 }
 
-TEST_CASE("space: a tool and a path that are turned together give the force turned, and no slip of their own") {
+TEST_CASE("a tool and a path in space that rotate together rotate the force and add no slip") {
   const auto R = verify::rotation<Spatial>(0.9);
   Mat<Real, 3> turn;
   for (int i = 0; i < 3; ++i)
@@ -135,7 +137,7 @@ TEST_CASE("space: a tool and a path that are turned together give the force turn
   CHECK((turn * a.stiffness * turn.transpose() - b.stiffness).norm() < 1e-13 * a.stiffness.norm());
 }
 
-TEST_CASE("space: a path in a plane through a ball's centre is that on a disc, to second order in the step") {
+TEST_CASE("friction on a ball along a plane through its centre is that on a disc, to second order in the step") {
   const Ball ball;
   const rigid::Profile disc = rigid::disc({0, 0}, 2);
   const auto node = node_on<Coulomb>(ball, {.mu = 0.3});
@@ -159,7 +161,7 @@ TEST_CASE("space: a path in a plane through a ball's centre is that on a disc, t
   CHECK(std::log2(errors[1] / errors[2]) > 1.8);
 }
 
-TEST_CASE("space: sticking does not wear off on a ball, whichever way it rolls about") {
+TEST_CASE("the sticking force on a ball returns after a closed path") {
   const Ball ball;
   const auto node = node_on<Coulomb>(ball, {.mu = 0.3});
   // Loaded once, then dragged within the bound around a loop: the force returns, but for the angle that a tangent
@@ -190,7 +192,7 @@ TEST_CASE("space: sticking does not wear off on a ball, whichever way it rolls a
   CHECK(errors[2] < errors[1]);
 }
 
-TEST_CASE("anisotropic Coulomb: the ellipse, its normal, and the circle as a special case") {
+TEST_CASE("anisotropic Coulomb slides on its ellipse along the normal, and equal coefficients give Coulomb's circle") {
   const Floor floor;
   const AnisotropicCoulomb law{.mu_along = 0.1, .mu_across = 0.3, .direction = {2, 0, 0}};
   const auto node = node_on<AnisotropicCoulomb>(floor, law);
@@ -227,7 +229,7 @@ TEST_CASE("anisotropic Coulomb: the ellipse, its normal, and the circle as a spe
                     "anisotropic Coulomb friction: both coefficients must be positive");
 }
 
-TEST_CASE("augmented Lagrangian: the multiplier presses through an open gap, and the tangents hold") {
+TEST_CASE("the multiplier of the augmented Lagrangian presses through an open gap with exact tangents") {
   const Ball ball;
   const AugmentedLagrangian augmented{.normal = 1000, .tangential = 100};
   for (const Real gap : {-0.01, 0.005, 0.05}) {

@@ -8,7 +8,7 @@ namespace element_hencky {
 using namespace element_check;
 const Hencky material{.young = 200e3, .poisson = 0.3};
 
-TEST_CASE("tangent of elements of Hencky's law") {
+TEST_CASE("quadrilaterals of Hencky's law have exact tangents") {
   check_all(material, {{displacement(1)}, {displacement(1.3)}, {displacement(-0.4)}});
 }
 
@@ -26,14 +26,14 @@ void check_energy() {
   const U slope = energy.slope.matrix();
   CHECK(verify::relative_error(element.template at<Real>(u, {}).residual, slope) < 1e-12);
 }
-TEST_CASE("element forces derive from the stored energy") {
+TEST_CASE("quadrilateral forces derive from the stored energy") {
   check_energy<MeanDilatation<Quad4>, PlaneStrain>();
   check_energy<MeanDilatation<Quad4>, Axisymmetric>();
   check_energy<FullyIntegrated<Quad4>, PlaneStrain>();
   check_energy<FullyIntegrated<Quad4>, Axisymmetric>();
 }
 
-TEST_CASE("one dilatation in the whole element of mean dilatation, several in the plain one") {
+TEST_CASE("a quadrilateral of mean dilatation has one dilatation, a fully integrated one several") {
   const auto spread = [](auto tag) {
     using Element = decltype(tag);
     const verify::SingleElement<Element, PlaneStrain, Hencky> element{.material = material, .X = distorted()};
@@ -50,7 +50,7 @@ TEST_CASE("one dilatation in the whole element of mean dilatation, several in th
   CHECK(spread(FullyIntegrated<Quad4>{}) > 0.1);
 }
 
-TEST_CASE("an element that turns inside out says so") {
+TEST_CASE("an inverted quadrilateral fails as element_inverted") {
   const verify::SingleElement<MeanDilatation<Quad4>, PlaneStrain, Hencky> mean{.material = material, .X = distorted()};
   const verify::SingleElement<FullyIntegrated<Quad4>, PlaneStrain, Hencky> plain{.material = material,
                                                                                  .X = distorted()};
@@ -74,7 +74,7 @@ struct Skewed : Hencky {
     return out;
   }
 };
-TEST_CASE("elements carry a non-symmetric material's tangent") {
+TEST_CASE("quadrilaterals carry the tangent of a non-symmetric material") {
   const auto check_general = [](auto element) {
     const auto r = verify::element_tangent(element, {displacement(1)}, 1, 2e-5);
     CHECK(r.by_duals < 1e-11);

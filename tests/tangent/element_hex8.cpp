@@ -44,11 +44,11 @@ void check(const Material& material, const Path& path) {
   for (const Real angle : {0.7, pi / 2, 2.9}) CHECK(verify::element_objectivity(element, path, angle) < 1e-11);
 }
 
-TEST_CASE_TEMPLATE("tangent and objectivity of a hexahedron of Hencky's law", Element, Mean, Plain) {
+TEST_CASE_TEMPLATE("a hexahedron of Hencky's law has an exact tangent and is objective", Element, Mean, Plain) {
   for (const Real scale : {1.0, -0.4}) check<Element>(hencky, {displacement(scale)});
 }
 
-TEST_CASE_TEMPLATE("tangent and objectivity of a hexahedron in plastic flow", Element, Mean, Plain) {
+TEST_CASE_TEMPLATE("a hexahedron in plastic flow has an exact tangent and is objective", Element, Mean, Plain) {
   const Path path{displacement(0.2), displacement(-0.3), displacement(0.9)};
   const Lone<Element, FiniteJ2<PowerHardening>> element{.material = power, .X = distorted()};
   const auto old = element.template preloaded<Real>(path);
@@ -57,7 +57,7 @@ TEST_CASE_TEMPLATE("tangent and objectivity of a hexahedron in plastic flow", El
   check<Element>(power, path);
 }
 
-TEST_CASE_TEMPLATE("a hexahedron's forces derive from the stored energy", Element, Mean, Plain) {
+TEST_CASE_TEMPLATE("hexahedron forces derive from the stored energy", Element, Mean, Plain) {
   const Lone<Element, Hencky> element{.material = hencky, .X = distorted()};
   const U u = displacement(1);
   const Vec<Dual<24>, 24> dual_u = verify::seeded<24>(u);
@@ -70,7 +70,7 @@ TEST_CASE_TEMPLATE("a hexahedron's forces derive from the stored energy", Elemen
   CHECK(verify::relative_error(element.template at<Real>(u, {}).residual, slope) < 1e-12);
 }
 
-TEST_CASE("one dilatation in the whole hexahedron of mean dilatation, several in the plain one") {
+TEST_CASE("a hexahedron of mean dilatation has one dilatation, a fully integrated one several") {
   const auto spread = [](auto tag) {
     using Element = decltype(tag);
     const Lone<Element, Hencky> element{.material = hencky, .X = distorted()};
@@ -87,7 +87,7 @@ TEST_CASE("one dilatation in the whole hexahedron of mean dilatation, several in
   CHECK(spread(Plain{}) > 0.1);
 }
 
-TEST_CASE_TEMPLATE("a hexahedron that turns inside out says so", Element, Mean, Plain) {
+TEST_CASE_TEMPLATE("an inverted hexahedron fails as element_inverted", Element, Mean, Plain) {
   const Lone<Element, Hencky> element{.material = hencky, .X = distorted()};
   U u = U::Zero();
   u[18] = -3;

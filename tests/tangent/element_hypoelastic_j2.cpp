@@ -10,7 +10,7 @@ using namespace element_check;
 using Material = HypoelasticJ2<LinearHardening>;
 const std::vector<std::vector<U>> paths{{displacement(1)}, {displacement(0.2), displacement(-0.3), displacement(0.9)}};
 
-TEST_CASE("tangent of elements, hypoelastic J2") {
+TEST_CASE("elements of hypoelastic J2 in flow have exact tangents") {
   const Material material{.young = 69e3, .poisson = 0.33, .hardening = {.yield = 30, .modulus = 260}};
   for (const auto& path : paths) {
     CHECK(flows<MeanDilatation<Quad4>>(material, path));
@@ -19,7 +19,7 @@ TEST_CASE("tangent of elements, hypoelastic J2") {
   check_all(material, paths);
 }
 
-TEST_CASE("tangent of elements that stay elastic, hypoelastic J2: not symmetric") {
+TEST_CASE("elastic elements of hypoelastic J2 have exact tangents that are not symmetric") {
   const Material hard{.young = 69e3, .poisson = 0.33, .hardening = {.yield = 1e6, .modulus = 260}};
   CHECK_FALSE(flows<MeanDilatation<Quad4>>(hard, paths[1]));
   check_all(hard, paths);

@@ -10,7 +10,7 @@ using namespace element_check;
 using Material = FiniteJ2<LinearHardening>;
 const Material material{.young = 69e3, .poisson = 0.33, .hardening = {.yield = 30, .modulus = 260}};
 
-TEST_CASE("tangent of elements, J2 with linear hardening") {
+TEST_CASE("elements of J2 with linear hardening in flow have exact tangents") {
   const std::vector<std::vector<U>> plastic{{displacement(1)},
                                             {displacement(0.2), displacement(-0.3), displacement(0.9)}};
   for (const auto& path : plastic) {
@@ -20,7 +20,7 @@ TEST_CASE("tangent of elements, J2 with linear hardening") {
   check_all(material, plastic);
 }
 
-TEST_CASE("tangent of elements that stay elastic, J2 with linear hardening") {
+TEST_CASE("elastic elements of J2 with linear hardening have exact tangents") {
   const Material hard{.young = 69e3, .poisson = 0.33, .hardening = {.yield = 1e6, .modulus = 260}};
   CHECK_FALSE(flows<MeanDilatation<Quad4>>(hard, {displacement(1)}));
   check_all(hard, {{displacement(1)}});

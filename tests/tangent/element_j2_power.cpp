@@ -11,7 +11,7 @@ using Material = FiniteJ2<PowerHardening>;
 const Material material{
     .young = 69004, .poisson = 0.3, .hardening = {.strength = 589, .offset = 1e-4, .exponent = 0.216}};
 
-TEST_CASE("tangent of elements, J2 with power hardening") {
+TEST_CASE("elements of J2 with power hardening in flow have exact tangents") {
   const std::vector<std::vector<U>> plastic{{displacement(1)},
                                             {displacement(0.2), displacement(-0.3), displacement(0.9)}};
   for (const auto& path : plastic) {
@@ -21,7 +21,7 @@ TEST_CASE("tangent of elements, J2 with power hardening") {
   check_all(material, plastic);
 }
 
-TEST_CASE("tangent of elements that stay elastic, J2 with power hardening") {
+TEST_CASE("elastic elements of J2 with power hardening have exact tangents") {
   const Material hard{
       .young = 69004, .poisson = 0.3, .hardening = {.strength = 1e7, .offset = 1e-4, .exponent = 0.216}};
   CHECK_FALSE(flows<MeanDilatation<Quad4>>(hard, {displacement(1)}));

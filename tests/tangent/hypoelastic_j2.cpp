@@ -64,7 +64,7 @@ void check(const Material& material, const Path& path) {
   CHECK(verify::material_objectivity(material, path, 0.7) < 1e-11);
   CHECK(verify::material_objectivity(material, path, 2.9) < 1e-11);
 }
-TEST_CASE("hypoelastic J2: tangent, memory and objectivity in flow and without") {
+TEST_CASE("hypoelastic J2 has an exact tangent and history and is objective, elastic and in flow") {
   static_assert(MaterialPolicy<Linear, Planar>);
   for (const Path& path : paths) {
     CHECK(flows(linear, path));
@@ -75,7 +75,7 @@ TEST_CASE("hypoelastic J2: tangent, memory and objectivity in flow and without")
     check(elastic, path);
   }
 }
-TEST_CASE("hypoelastic J2: tangent of a step that does not stretch, or equally in two directions") {
+TEST_CASE("hypoelastic J2's tangent is exact for steps without stretch or with equal stretches") {
   const F2 G = gradient(1.2, 0.3, -0.1, 0.9, 1.1);
   for (const F2& step :
        {F2::identity(), verify::rotation<Planar>(0.6), gradient(1.1, 0, 0, 1.1, 0.95), gradient(0, -1.1, 1.1, 0, 1)}) {
@@ -86,7 +86,7 @@ TEST_CASE("hypoelastic J2: tangent of a step that does not stretch, or equally i
     }
   }
 }
-TEST_CASE("hypoelastic J2: a rotation turns the stress and does nothing else") {
+TEST_CASE("under hypoelastic J2 a rotation only rotates the stress") {
   const auto before = verify::detail::preloaded<Real, Planar>(voce, {paths[0][0], F2::identity()}, 1);
   for (const Real angle : {0.3, pi / 2, 3.0}) {
     const F2 Q = verify::rotation<Planar>(angle);
@@ -96,7 +96,7 @@ TEST_CASE("hypoelastic J2: a rotation turns the stress and does nothing else") {
     CHECK(after.plastic_strain == doctest::Approx(before.plastic_strain).epsilon(1e-12));
   }
 }
-TEST_CASE("hypoelastic J2: symmetric from the virgin state, else unsymmetric in proportion to the step") {
+TEST_CASE("hypoelastic J2's tangent is symmetric from the virgin state, else unsymmetric in proportion to the step") {
   CHECK(verify::material_tangent<Planar>(linear, {paths[0][0]}).asymmetry < 1e-13);
   CHECK(verify::material_tangent<Planar>(elastic, {paths[0][0]}).asymmetry < 1e-13);
   const auto asymmetry = [](const auto& material, Real h) {
@@ -121,7 +121,7 @@ TEST_CASE("hypoelastic elasticity without rotation is Hencky's, in any number of
   }
 }
 // Dienes (1979): the Zaremba-Jaumann rate of the Kirchhoff stress in simple shear.
-TEST_CASE("hypoelastic elasticity in simple shear: towards tau_12 = mu sin gamma with the square of the step") {
+TEST_CASE("hypoelastic simple shear converges to tau_12 = mu sin gamma at second order in the step") {
   const Real mu = 69e3 / 2.66;
   Real error[2];
   int k = 0;
@@ -138,7 +138,7 @@ TEST_CASE("hypoelastic elasticity in simple shear: towards tau_12 = mu sin gamma
 }
 // On the yield circle tau_12 = k cos(phi), (tau_11 - tau_22) / 2 = k sin(phi) the angle obeys
 // d phi / d gamma = 1 - mu / k sin(phi).
-TEST_CASE("hypoelastic perfect plasticity in simple shear settles at sin(phi) = k / mu") {
+TEST_CASE("hypoelastic perfect plasticity in simple shear has the limit sin(phi) = k / mu") {
   const Real mu = 100, k = 10;
   const HypoelasticJ2<PerfectPlasticity> soft{.young = 260, .poisson = 0.3, .hardening = {.yield = k * std::sqrt(3.0)}};
   const F2 tau = follow(
@@ -164,7 +164,7 @@ TEST_CASE("hypoelastic and multiplicative J2 agree where elastic strains are sma
   });
 }
 // Free sides by Newton's method on the law's own tangent, against the flow curve.
-TEST_CASE("hypoelastic J2 in uniaxial tension: the Kirchhoff stress is the flow stress at ln(stretch) - tau / young") {
+TEST_CASE("hypoelastic J2's Kirchhoff stress in uniaxial tension is the flow stress at ln(stretch) - tau / young") {
   Voce::State<Real, Planar> state;
   Real side = 1;
   for (int k = 1; k <= 60; ++k) {
@@ -182,7 +182,7 @@ TEST_CASE("hypoelastic J2 in uniaxial tension: the Kirchhoff stress is the flow 
     CHECK(state.plastic_strain == doctest::Approx(std::log(stretch) - tau / voce.young).epsilon(1e-10));
   }
 }
-TEST_CASE("hypoelastic J2: work done is energy of the stress and plastic work, but for the error of the quadrature") {
+TEST_CASE("hypoelastic J2's work is stored energy and plastic work, up to the error of the quadrature") {
   const auto motion = [](Real t) { return gradient(1 + 0.2 * t, 0.3 * t * t, -0.1 * t, 1 - 0.15 * t, 1); };
   Real error[2];
   int k = 0;
@@ -195,7 +195,7 @@ TEST_CASE("hypoelastic J2: work done is energy of the stress and plastic work, b
   CHECK(error[0] < 1e-4);
   CHECK(error[1] < 0.5 * error[0]);
 }
-TEST_CASE("hypoelastic J2: a wrong parameter is named") {
+TEST_CASE("a wrong parameter of hypoelastic J2 is named") {
   CHECK_NOTHROW(voce.validate());
   CHECK_THROWS_WITH_AS((Linear{.young = 1, .poisson = 0.5, .hardening = {.yield = 1}}.validate()),
                        "material: Poisson's ratio must lie between -1 and 0.5, both excluded", std::invalid_argument);

@@ -62,7 +62,7 @@ void check_path(const Material& material, const Path& path, Real step, Real accu
   CHECK(verify::material_memory(material, path) < 1e-11);
 }
 
-TEST_CASE("Hencky's tangent") {
+TEST_CASE("Hencky's tangent is exact") {
   for (const Path& path : elastic_paths) check_path(hencky, path, 1e-4, 1e-9);
 }
 
@@ -77,7 +77,8 @@ TEST_CASE("Hencky's stress is the gradient of its energy") {
   }
 }
 
-TEST_CASE_TEMPLATE("tangent of plastic flow", Material, FiniteJ2<LinearHardening>, FiniteJ2<PowerHardening>) {
+TEST_CASE_TEMPLATE("finite J2's tangent is exact in plastic flow", Material, FiniteJ2<LinearHardening>,
+                   FiniteJ2<PowerHardening>) {
   const Material& material = []() -> const Material& {
     if constexpr (std::is_same_v<Material, FiniteJ2<LinearHardening>>)
       return linear;
@@ -90,8 +91,8 @@ TEST_CASE_TEMPLATE("tangent of plastic flow", Material, FiniteJ2<LinearHardening
   }
 }
 
-TEST_CASE_TEMPLATE("tangent of elastic loading and of unloading after flow", Material, FiniteJ2<LinearHardening>,
-                   FiniteJ2<PowerHardening>) {
+TEST_CASE_TEMPLATE("finite J2's tangent is exact in elastic loading and in unloading after flow", Material,
+                   FiniteJ2<LinearHardening>, FiniteJ2<PowerHardening>) {
   const Material& material = []() -> const Material& {
     if constexpr (std::is_same_v<Material, FiniteJ2<LinearHardening>>)
       return linear;
@@ -107,8 +108,8 @@ TEST_CASE_TEMPLATE("tangent of elastic loading and of unloading after flow", Mat
   check_path(material, back, 1e-6, 1e-9);
 }
 
-TEST_CASE_TEMPLATE("tangent on either side of the yield switch", Material, FiniteJ2<LinearHardening>,
-                   FiniteJ2<PowerHardening>) {
+TEST_CASE_TEMPLATE("finite J2's tangent is exact on either side of the yield switch", Material,
+                   FiniteJ2<LinearHardening>, FiniteJ2<PowerHardening>) {
   const Material& material = []() -> const Material& {
     if constexpr (std::is_same_v<Material, FiniteJ2<LinearHardening>>)
       return linear;
@@ -132,7 +133,7 @@ TEST_CASE_TEMPLATE("tangent on either side of the yield switch", Material, Finit
         1e-6);
 }
 
-TEST_CASE("tangent where principal stretches coincide") {
+TEST_CASE("tangents are exact where principal stretches coincide") {
   const std::vector<Path> equal{
       {one}, {gradient(1.3, 0, 0, 1.3, 1)}, {gradient(1.2, 0, 0, 1.2, 1.2)}, {gradient(0, -0.8, 0.8, 0, 1.1)}};
   for (const Path& path : equal) {
@@ -152,7 +153,7 @@ TEST_CASE("tangent where principal stretches coincide") {
   CHECK(verify::material_tangent(linear, preloaded).by_duals < 1e-10);
 }
 
-TEST_CASE("tangent where principal stretches nearly coincide") {
+TEST_CASE("tangents are exact where principal stretches nearly coincide") {
   for (const Real gap : {1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-15}) {
     const F2 F = gradient(1.2 + gap, 0, 0, 1.2, 0.9);
     const auto near = hencky.respond(F, {}, 1).dP_dF, at = hencky.respond(gradient(1.2, 0, 0, 1.2, 0.9), {}, 1).dP_dF;
@@ -162,7 +163,7 @@ TEST_CASE("tangent where principal stretches nearly coincide") {
   }
 }
 
-TEST_CASE("plastic flow keeps the volume and the energy of what is elastic gives the stress") {
+TEST_CASE("plastic flow keeps the volume, and the elastic energy gives the stress") {
   for (const Path& path : plastic_paths) {
     const auto r = power.respond(path.back(), verify::detail::preloaded<Real, Planar>(power, path, 1), 1);
     CHECK(determinant(r.state.Cp_inverse.full()) == doctest::Approx(1).epsilon(1e-12));
@@ -188,7 +189,7 @@ struct Wrong : Hencky {
   }
 };
 
-TEST_CASE("the checks themselves notice a wrong tangent") {
+TEST_CASE("the tangent checks detect a wrong tangent") {
   const auto r = verify::material_tangent(Wrong{{hencky}}, elastic_paths[0]);
   CHECK(r.by_duals > 1e-5);
   CHECK(r.by_differences > 1e-5);

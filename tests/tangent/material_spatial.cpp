@@ -52,14 +52,14 @@ bool yields(const Material& material, const Path& path) {
   return material.respond(path.back(), old, 1).state.plastic_strain > old.plastic_strain;
 }
 
-TEST_CASE("hyperelastic tangents in space") {
+TEST_CASE("hyperelastic tangents in space are exact") {
   for (const Path& path : {Path{first}, Path{second}, Path{quarter_turn}}) {
     check_path(hencky, path, 1e-4, 1e-9);
     check_path(neo_hookean, path, 1e-4, 1e-9);
   }
 }
 
-TEST_CASE("tangent of plastic flow, of elastic loading and of unloading in space") {
+TEST_CASE("finite J2's tangent in space is exact in flow, elastic loading and unloading") {
   const auto check = [](const auto& material) {
     for (const Path& path : {Path{first}, Path{first, second}, Path{second, first, quarter_turn}}) {
       CHECK(yields(material, path));
@@ -78,7 +78,7 @@ TEST_CASE("tangent of plastic flow, of elastic loading and of unloading in space
   check(power);
 }
 
-TEST_CASE("tangent of the hypoelastic law in space, in flow") {
+TEST_CASE("hypoelastic J2's tangent in space is exact in flow") {
   for (const Path& path : {Path{first}, Path{first, second}, Path{second, first, quarter_turn}}) {
     CHECK(yields(hypoelastic, path));
     check_path(hypoelastic, path, 1e-4, 1e-8);
@@ -94,7 +94,7 @@ TEST_CASE("plastic flow in space keeps the volume and stays on the yield surface
   }
 }
 
-TEST_CASE("tangent in space where principal stretches coincide or nearly do") {
+TEST_CASE("tangents in space are exact where principal stretches coincide or nearly do") {
   for (const Real angle : {0.0, 0.8})
     for (const Real gap : {0.0, 1e-15, 1e-12, 1e-8, 1e-6, 1e-4, 1e-2}) {
       const F3 two = stretch(1.2, 0.9, 1.2 + gap, angle), three = stretch(1.1, 1.1 + gap, 1.1 - gap, angle);
@@ -114,7 +114,7 @@ TEST_CASE("tangent in space where principal stretches coincide or nearly do") {
   CHECK(verify::material_tangent(hencky, Path{F3::identity()}).by_differences < 1e-9);
 }
 
-TEST_CASE("a gradient of the plane gets the plane's stress and moduli") {
+TEST_CASE("a plane deformation gradient has the same stress and moduli in the spatial law") {
   Tensor<Real, Planar> F, before;
   F.v << 1.3, -0.4, 0.3, 0.9, 0.8;
   before.v << 1.1, 0.2, 0.1, 0.95, 1.0;

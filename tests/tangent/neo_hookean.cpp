@@ -16,7 +16,7 @@ const std::vector<F2> gradients{gradient(1.2, 0.3, -0.1, 0.9, 1.1), gradient(0.5
                                 gradient(2.5, 0.1, 0, 0.4, 1),      gradient(0, -1.1, 0.9, 0, 1),
                                 gradient(1.3, 0, 0, 1.3, 1),        F2::identity()};
 
-TEST_CASE("neo-Hookean tangent, memory and objectivity") {
+TEST_CASE("the neo-Hookean law has an exact tangent, keeps no history and is objective") {
   static_assert(MaterialPolicy<NeoHookean, Planar>);
   for (const F2& F : gradients) {
     const auto r = verify::material_tangent<Planar>(rubber, {F});
@@ -36,14 +36,14 @@ TEST_CASE("neo-Hookean stress is the gradient of its energy") {
   }
   CHECK(rubber.energy(F2::identity(), {}) == 0);
 }
-TEST_CASE("neo-Hookean energy keeps its digits at small strain") {
+TEST_CASE("the neo-Hookean energy keeps its digits at small strain") {
   const Real e = 1e-6;
   const F2 F = gradient(1 + e, 0, 0, 1, 1);
   const Real stretch = F(0, 0) - 1;
   CHECK(rubber.energy(F, {}) == doctest::Approx((shear + 0.5 * lame) * stretch * stretch).epsilon(1e-5));
 }
 // tau = shear (b - 1) + lame ln J 1, written out.
-TEST_CASE("neo-Hookean simple shear: tau_12 = shear gamma, tau_11 = shear gamma^2, the rest zero") {
+TEST_CASE("neo-Hookean simple shear has tau_12 = shear gamma and tau_11 = shear gamma^2 alone") {
   for (const Real gamma : {1e-4, 0.3, 2.0}) {
     const F2 F = gradient(1, gamma, 0, 1, 1);
     const F2 tau = kirchhoff(rubber.respond(F, {}, 1).P, F);
@@ -54,7 +54,7 @@ TEST_CASE("neo-Hookean simple shear: tau_12 = shear gamma, tau_11 = shear gamma^
     CHECK(std::abs(tau(2, 2)) < 1e-15 * 100);
   }
 }
-TEST_CASE("neo-Hookean uniaxial tension: free sides by bisection of the closed formula, and no stress on them") {
+TEST_CASE("neo-Hookean uniaxial tension has no stress on the sides at the stretch of the closed formula") {
   for (const Real stretch : {0.4, 0.9, 1.5, 3.0}) {
     // shear (a^2 - 1) + lame ln(stretch a^2) = 0 for the stretch a of the sides
     Real low = 0.01, high = 10;
@@ -68,7 +68,7 @@ TEST_CASE("neo-Hookean uniaxial tension: free sides by bisection of the closed f
     CHECK(P(0, 0) == doctest::Approx(shear * (stretch - low * low / stretch)).epsilon(1e-12));
   }
 }
-TEST_CASE("at small strain the neo-Hookean law is Hencky's") {
+TEST_CASE("the neo-Hookean law is Hencky's at small strain") {
   const Hencky hencky{.young = 6, .poisson = 0.4};
   const F2 F = gradient(1 + 2e-6, 1e-6, -3e-6, 1 - 1e-6, 1 + 4e-6);
   CHECK(verify::relative_error(rubber.respond(F, {}, 1).P.v, hencky.respond(F, {}, 1).P.v) < 1e-4);

@@ -43,17 +43,19 @@ struct Model {
 
 // 2 x 2 elements on a disc: nodes that slide, flow in the body, a load and a driven side.
 template <class M>
-verify::TangentReport check() {
+verify::TangentReport check(
+    const rigid::Profile& tool = rigid::disc({1.1, -3.02}, 3),
+    const rigid::Motion<2>& motion = [](Real t) { return Vec<Real, 2>(0.3 * t, 0.05 * t); }) {
   using Kinematics = typename M::Kinematics;
-  Body<M> body(mesh::rectangle({.origin = {0.2, 0}, .size = {2, 1}, .cells = {2, 2}}), Kinematics{},
-               {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 40}});
+  Bodies<M> body(mesh::rectangle({.origin = {0.2, 0}, .size = {2, 1}, .cells = {2, 2}}), Kinematics{},
+                 {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 40}});
   ContactPairs<M> pairs;
   const Contact<M> contact{.side = "bottom",
-                           .tool = rigid::disc({1.1, -3.02}, 3),
-                           .motion = [](Real t) { return Vec<Real, 2>(0.3 * t, 0.05 * t); },
+                           .tool = tool,
+                           .motion = motion,
                            .friction = {.mu = 0.2},
                            .enforcement = {.normal = 2e3, .tangential = 5e2}};
-  pairs.emplace_back(contact, body.mesh(), body.kinematics());
+  pairs.emplace_back(contact, body);
   typename System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {{"top", 1, [](Real t) { return -0.1 * t; }}},
                    {{"right", 0, [](Real t) { return 3 * t; }}});
@@ -76,25 +78,32 @@ verify::TangentReport check() {
   return verify::system_tangent(system, u, 2, 1, 1e-6);
 }
 
-TEST_CASE("tangent of a whole system, Coulomb") {
+TEST_CASE("the system tangent with Coulomb friction is exact") {
   const auto plane = check<Model<PlaneStrain, Coulomb>>(), axi = check<Model<Axisymmetric, Coulomb>>();
   CHECK(plane.by_differences < 1e-8);
   CHECK(axi.by_differences < 1e-8);
   CHECK(plane.asymmetry > 1e-3);
 }
-TEST_CASE("tangent of a whole system, Quasi-Coulomb: the lower triangle stands for all of it") {
+TEST_CASE("the tangent of a whole system is turned with its tool") {
+  const auto motion = [](Real t) { return rigid::turned(0.1 * t, {1.1, 0}, {0.3 * t, -0.02 + 0.01 * t}); };
+  for (const auto& report : {check<Model<PlaneStrain, Coulomb>>(rigid::line({0, 0}, {1, 0}), motion),
+                             check<Model<Axisymmetric, QuasiCoulomb>>(rigid::line({0, 0}, {1, 0}), motion)})
+    CHECK(report.by_differences < 1e-8);
+}
+
+TEST_CASE("the system tangent with Quasi-Coulomb friction is exact and stored as its lower triangle") {
   const auto plane = check<Model<PlaneStrain, QuasiCoulomb>>(), axi = check<Model<Axisymmetric, QuasiCoulomb>>();
   CHECK(plane.by_differences < 1e-8);
   CHECK(axi.by_differences < 1e-8);
 }
 
-TEST_CASE("tangent of a whole system in space") {
+TEST_CASE("the system tangent in space is exact") {
   struct M : Model<ThreeDimensional, Frictionless> {
     using Element = MeanDilatation<Hex8>;
     using Enforcement = NoContact;
   };
-  Body<M> body(mesh::box({.cells = {2, 1, 2}}), {},
-               {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 40}});
+  Bodies<M> body(mesh::box({.cells = {2, 1, 2}}), {},
+                 {.young = 1000, .poisson = 0.3, .hardening = {.yield = 5, .modulus = 40}});
   System<M>::Pairs pairs{};
   System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {{"top", 2, nullptr}}, {{"right", 0, [](Real t) { return 3 * t; }}});
@@ -110,10 +119,10 @@ TEST_CASE("tangent of a whole system in space") {
 }
 
 // The predictor of a driven step: residual to first order after the increments still to come.
-TEST_CASE("the tangent predictor carries the driven increments") {
+TEST_CASE("the tangent predictor contains the driven increments") {
   using M = Model<PlaneStrain, QuasiCoulomb>;
-  Body<M> body(mesh::rectangle({.size = {2, 1}, .cells = {2, 2}}), PlaneStrain{},
-               {.young = 1000, .poisson = 0.3, .hardening = {.yield = 50, .modulus = 40}});
+  Bodies<M> body(mesh::rectangle({.size = {2, 1}, .cells = {2, 2}}), PlaneStrain{},
+                 {.young = 1000, .poisson = 0.3, .hardening = {.yield = 50, .modulus = 40}});
   ContactPairs<M> pairs;
   typename System<M>::Inertia inertia{};
   System<M> system(body, pairs, inertia, {{"top", 1, nullptr}, {"bottom", 1, nullptr}}, {});

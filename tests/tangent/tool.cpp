@@ -43,34 +43,34 @@ void check_tool(const Profile& tool, const V& low, const V& high, Real reach, Re
   CHECK(worst_distance < 0.1 * spacing);
 }
 
-TEST_CASE("a line") {
+TEST_CASE("a line has the exact gap, normal and derivatives") {
   check_tool(rigid::line({1, 2}, {3, 1}), {-1, -1}, {3, 4}, 20);
 }
-TEST_CASE("a convex arc") {
+TEST_CASE("a convex arc has the exact gap, normal and derivatives") {
   check_tool(rigid::path({0, 0}, {0, 1}).right(2, pi / 2), {0.5, 0.5}, {1.9, 1.9}, 1);
 }
-TEST_CASE("a concave arc") {
+TEST_CASE("a concave arc has the exact gap, normal and derivatives") {
   check_tool(rigid::path({0, 0}, {1, 0}).left(2, pi / 2), {0.4, 0.1}, {1.9, 1.2}, 1);
 }
-TEST_CASE("a path with smooth joints") {
+TEST_CASE("a path with smooth joints has the exact gap, normal and derivatives") {
   const Profile path =
       rigid::path({0, 0}, {1, 0}).straight(1).left(0.7, 1.1).straight(0.5).right(0.9, 1.4).straight(1).endless();
   check_tool(path, {-1, 0}, {4, 2}, 10);
 }
-TEST_CASE("a corner that stands out") {
+TEST_CASE("a convex corner has the exact gap, normal and derivatives") {
   check_tool(rigid::path({0, 0}, {1, 0}).straight(1).corner(-1.2).straight(1).endless(), {0, -1}, {3, 2}, 10);
 }
-TEST_CASE("a re-entrant corner") {
+TEST_CASE("a re-entrant corner has the exact gap, normal and derivatives") {
   check_tool(rigid::path({0, 0}, {1, 0}).straight(1).corner(1.2).straight(1).endless(), {-1, -2}, {2, 1}, 10);
 }
-TEST_CASE("a disc") {
+TEST_CASE("a disc has the exact gap, normal and derivatives") {
   check_tool(rigid::disc({1, 2}, 1.5), {-1.5, -0.5}, {3.5, 4.5}, 1);
   const auto disc = rigid::disc({1, 2}, 1.5);
   CHECK(disc.closest(V(1, 4)).gap == doctest::Approx(0.5).epsilon(1e-14));
   CHECK(disc.closest(V(1, 3)).gap == doctest::Approx(-0.5).epsilon(1e-14));
   CHECK(disc.length() == doctest::Approx(3 * pi).epsilon(1e-14));
 }
-TEST_CASE("rounded and sharp polygon lines") {
+TEST_CASE("rounded and sharp polygon lines have the exact gap, normal and derivatives") {
   const std::vector<V> points{{0, 0}, {2, 0}, {3, 1.5}, {5, 1}, {6, 3}};
   check_tool(rigid::rounded(points, 0.3), {0.3, -1}, {5.5, 3}, 1);
   check_tool(rigid::rounded(points, 0), {0.3, -1}, {5.5, 3}, 1);
@@ -83,7 +83,7 @@ TEST_CASE("rounded and sharp polygon lines") {
   }
 }
 
-TEST_CASE("a corner's gap: positive all around one that stands out, measured to a re-entrant one") {
+TEST_CASE("the gap of a corner is the distance with the sign of the side") {
   const auto out = rigid::path({-1, 0}, {1, 0}).straight(1).corner(-pi / 2).straight(1);  // body above and to the right
   CHECK(out.closest(V(0.3, 0.4)).gap == doctest::Approx(0.5).epsilon(1e-14));
   CHECK(out.closest(V(-0.1, -0.2)).gap == doctest::Approx(-0.1).epsilon(1e-14));
@@ -92,7 +92,7 @@ TEST_CASE("a corner's gap: positive all around one that stands out, measured to 
   CHECK(in.closest(V(-0.1, 0.2)).gap == doctest::Approx(0.1).epsilon(1e-14));
 }
 
-TEST_CASE("gap, normal and place do not jump at smooth joints") {
+TEST_CASE("gap, normal and surface coordinate are continuous at smooth joints") {
   const Profile path = rigid::path({0, 0}, {1, 0}).straight(1).left(0.7, 1.1).straight(0.5).right(0.9, 1.4).straight(1);
   V at(1, 0), heading(1, 0);
   const auto turn = [](const V& v, Real a) {
@@ -148,7 +148,7 @@ TEST_CASE("past an open end there is no contact") {
   CHECK(verify::tool_derivatives(arc, V(1, -0.5)).worst() < 1e-10);
 }
 
-TEST_CASE("the middle of a disc and a point that is no number are answered") {
+TEST_CASE("a disc has a normal at its centre and no gap at NaN") {
   const auto disc = rigid::disc({1, 2}, 1.5);
   const auto middle = disc.closest(V(1, 2));
   CHECK(middle.gap == doctest::Approx(-1.5));
@@ -156,7 +156,7 @@ TEST_CASE("the middle of a disc and a point that is no number are answered") {
   CHECK(std::isnan(disc.closest(V(std::nan(""), 0)).gap));
 }
 
-TEST_CASE("a pose turns about its centre") {
+TEST_CASE("a pose rotates about its centre") {
   const auto pose = rigid::turned(pi / 2, {1, 0}, {0, 3});
   const V x = pose.rotation * V(2, 0) + pose.translation;
   CHECK((x - V(1, 4)).norm() < 1e-14);

@@ -52,21 +52,21 @@ Real radius(const V3& x) {
   return (x - centre - height(x) * a).norm();
 }
 
-TEST_CASE("a plane") {
+TEST_CASE("a plane in space has the exact gap, normal and derivatives") {
   check_tool(rigid::plane(centre, axis), centre, 2, [](const V3& x) { return height(x); });
 }
-TEST_CASE("a sphere, and a cavity") {
+TEST_CASE("a sphere and a cavity have the exact gap, normal and derivatives") {
   check_tool(rigid::sphere(centre, 1.5), centre + V3(2, 0, 0), 1.6,
              [](const V3& x) { return (x - centre).norm() - 1.5; });
   check_tool(rigid::cavity(centre, 4.5), centre + V3(2, 1, 0), 0.9,
              [](const V3& x) { return 4.5 - (x - centre).norm(); });
 }
-TEST_CASE("a cylinder, and a tube") {
+TEST_CASE("a cylinder and a tube have the exact gap, normal and derivatives") {
   const V3 beside = centre + 2 * rigid::detail::perpendicular(a);
   check_tool(rigid::cylinder(centre, axis, 1.5), beside, 0.7, [](const V3& x) { return radius(x) - 1.5; });
   check_tool(rigid::tube(centre, axis, 1.5), beside, 0.7, [](const V3& x) { return 1.5 - radius(x); });
 }
-TEST_CASE("a cone, and a funnel") {
+TEST_CASE("a cone and a funnel have the exact gap, normal and derivatives") {
   const Real alpha = 0.6, s = std::sin(alpha), c = std::cos(alpha);
   const V3 beside = centre + 3 * a + 2 * rigid::detail::perpendicular(a);
   const auto gap = [&](const V3& x) { return c * radius(x) - s * height(x); };
@@ -78,11 +78,11 @@ TEST_CASE("a cone, and a funnel") {
   check_tool(rigid::funnel(centre, axis, alpha), centre - 2 * a, 0.5, [&](const V3& x) { return -past(x); },
              {.has_normals = false});
 }
-TEST_CASE("a torus") {
+TEST_CASE("a torus has the exact gap, normal and derivatives") {
   check_tool(rigid::torus(centre, axis, 3, 1), centre + 3 * rigid::detail::perpendicular(a) + V3(0.3, 0.2, 0.4), 0.8,
              [](const V3& x) { return std::hypot(radius(x) - 3, height(x)) - 1; });
 }
-TEST_CASE("a meridian of several pieces is its picture in the plane") {
+TEST_CASE("a surface of revolution has the gap of its meridian") {
   const rigid::Profile punch = rigid::path({0, -1}, {1, 0}).left(1, pi / 2).straight(2);
   const rigid::Revolution tool(punch, centre, axis);
   const V3 e = rigid::detail::perpendicular(a);
@@ -90,7 +90,7 @@ TEST_CASE("a meridian of several pieces is its picture in the plane") {
              [&](const V3& x) { return punch.closest(Vec<Real, 2>(radius(x), height(x))).gap; }, {.one_piece = false});
 }
 
-TEST_CASE("an extruded profile") {
+TEST_CASE("an extruded profile has the gap of its section") {
   const auto bead = rigid::path({-3, 0}, {1, 0}).straight(2).left(0.4, 0.7).straight(1).endless();
   const V3 e = rigid::detail::perpendicular(a), f = cross(a, e);
   const rigid::Extruded tool(bead, centre, 2 * e, 3 * f);
@@ -98,7 +98,7 @@ TEST_CASE("an extruded profile") {
              [&](const V3& x) { return bead.closest(Vec<Real, 2>((x - centre).dot(e), (x - centre).dot(f))).gap; });
 }
 
-TEST_CASE("on the axis and near it") {
+TEST_CASE("surfaces of revolution are exact on the axis and near it") {
   // Tips above and below: a sphere by its meridian, a hemispherical punch whose meridian ends on the axis, a plane, an
   // apex seen from outside.
   const V3 e = (rigid::detail::perpendicular(a) + 0.3 * cross(a, rigid::detail::perpendicular(a))).normalized();
@@ -136,7 +136,7 @@ TEST_CASE("on the axis and near it") {
   CHECK(third_derivative(ball, centre - 2.1 * a, 1e-3) < 1e-6);
 }
 
-TEST_CASE("where the closest points are a circle one of them is taken") {
+TEST_CASE("where the closest points form a circle one of them is taken") {
   for (const auto& tool :
        {rigid::cylinder(centre, axis, 2), rigid::tube(centre, axis, 2), rigid::torus(centre, axis, 3, 1)}) {
     const auto at = tool.distance(centre);
@@ -150,7 +150,7 @@ TEST_CASE("where the closest points are a circle one of them is taken") {
   CHECK(at.hess_gap.allFinite());
 }
 
-TEST_CASE("a turned frame turns the answers") {
+TEST_CASE("a rotated axis rotates gap gradient and Hessian") {
   const auto upright = rigid::torus({0, 0, 0}, {0, 0, 1}, 3, 1);
   const auto tilted = rigid::torus({0, 0, 0}, {0, -std::sin(0.4), std::cos(0.4)}, 3, 1);
   Mat<Real, 3> Q;
@@ -163,7 +163,7 @@ TEST_CASE("a turned frame turns the answers") {
   }
 }
 
-TEST_CASE("one of several kinds answers as the kind that it holds") {
+TEST_CASE("AnyOf has the gap and normal of the tool that it holds") {
   using Any = rigid::AnyOf<rigid::Revolution, rigid::Extruded>;
   const auto ball = rigid::sphere(centre, 1);
   const rigid::Extruded wall(rigid::line({0, 0}, {1, 0}), {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -183,7 +183,7 @@ TEST_CASE("one of several kinds answers as the kind that it holds") {
   CHECK(Any(rigid::Revolution(rigid::path({0, 0}, {1, 0}), centre, axis)).empty());
 }
 
-TEST_CASE("a point that is no number, or an empty tool, is answered by a gap that is none") {
+TEST_CASE("the gap of an empty tool or of a point that is not finite is not a contact") {
   constexpr Real nan = std::numeric_limits<Real>::quiet_NaN(), infinity = std::numeric_limits<Real>::infinity();
   const rigid::Extruded wall(rigid::line({0, 0}, {1, 0}), {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   for (const Real bad : {nan, infinity, -infinity})
@@ -197,7 +197,7 @@ TEST_CASE("a point that is no number, or an empty tool, is answered by a gap tha
   CHECK(std::isnan(rigid::Revolution(rigid::path({0, 0}, {1, 0}), centre, axis).distance(V3(1, 2, 3)).gap));
 }
 
-TEST_CASE("tools of space complain about what is wrong") {
+TEST_CASE("tools in space refuse wrong input by name") {
   const auto says = [](const char* part, auto&& make) {
     try {
       make();

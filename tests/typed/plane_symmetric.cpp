@@ -6,7 +6,7 @@
 
 namespace typed {
 
-TEST_CASE("models of the covering set in plane strain, solvers of symmetric systems") {
+TEST_CASE("plane-strain models of the covering set run with symmetric solvers") {
   CHECK(run_rows([](const Row& row) { return row.kinematics == plane && row.solver % 2 == 0; }) == 15);
 }
 

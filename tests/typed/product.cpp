@@ -79,7 +79,7 @@ void for_each_model(Visit&& visit) {
   }
 }
 
-TEST_CASE("the product of all choices, what the contracts admit of it, and the covering set") {
+TEST_CASE("the contracts admit the expected part of all models, and the covering set covers its pairs") {
   std::set<std::array<std::size_t, axes>> valid;
   Pairs needed, covered;
   std::size_t product = 0, triangles = 0;

@@ -6,7 +6,7 @@
 
 namespace typed {
 
-TEST_CASE("models of the covering set in axisymmetry, solvers of every system") {
+TEST_CASE("axisymmetric models of the covering set run with general solvers") {
   CHECK(run_rows([](const Row& row) { return row.kinematics == ring && row.solver % 2 == 1; }) == 17);
 }
 

@@ -110,7 +110,7 @@ Answer press_and_drag() {
   };
   typename Problem<Model>::Parameters parameters{.body = block(std::integral_constant<int, dim>{})};
   give(parameters.material);
-  if constexpr (has_inertia<Model>) parameters.time_integration.density = 20;
+  if constexpr (has_inertia<Model>) parameters.density = 20;
   if constexpr (has_contact<Model>) add_contacts(parameters.contacts);
   Problem<Model> problem(std::move(parameters));
   for (Index i = 0; i < dim; ++i) {

@@ -28,7 +28,7 @@ constexpr int checked() {
   return valid_model<Model> ? 1 : 0;
 }
 
-TEST_CASE("the parts of every valid model keep what they need and nothing else") {
+TEST_CASE("the parts of every valid model store only the members that they need") {
   constexpr int bodies = count(Each<AllKinematics>{}, [](auto k) {
     return count(Each<Treatments>{}, [k](auto t) {
       return count(Each<Materials>{}, [k, t](auto m) {

@@ -6,7 +6,7 @@
 
 namespace typed {
 
-TEST_CASE("models of the covering set in space, solvers of symmetric systems") {
+TEST_CASE("spatial models of the covering set run with symmetric solvers") {
   CHECK(run_rows([](const Row& row) { return row.kinematics == space && row.solver % 2 == 0; }) == 7);
 }
 

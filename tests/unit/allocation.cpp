@@ -128,7 +128,7 @@ struct Model {
   using LinearSolver = Watched;
 };
 
-TEST_CASE("the counters see what they should") {
+TEST_CASE("the allocation counters count the library's own allocations") {
   ledger = Ledger::ours;
   const long before = ours;
   Field* field = new Field(100);  // operator new, and Eigen's own malloc
@@ -169,7 +169,7 @@ struct Brick : Model {
   using Enforcement = NoContact;
 };
 
-TEST_CASE("nor does it in three dimensions") {
+TEST_CASE("Newton's loop in space allocates nothing after its first iteration") {
   Problem<Brick> p(
       {.body = mesh::box({.size = {2, 1, 1}, .cells = {4, 2, 2}}),
        .material = {

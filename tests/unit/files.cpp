@@ -51,7 +51,7 @@ std::string said(Act&& act) {
   return "nothing";
 }
 
-TEST_CASE("a file is the old one until the new one is whole") {
+TEST_CASE("a file is the old one until the new one is complete") {
   const Folder folder;
   const auto file = folder.path / "a";
   put(file, "old");
@@ -84,7 +84,7 @@ TEST_CASE("a file is the old one until the new one is whole") {
   CHECK(text_of(file) == wanted + block);
 }
 
-TEST_CASE("a disc that is full leaves the old file and nothing beside it") {
+TEST_CASE("a full disc leaves the old file and nothing beside it") {
   const Folder folder;
   const auto file = folder.path / "a";
   put(file, "old");
@@ -101,7 +101,7 @@ TEST_CASE("a disc that is full leaves the old file and nothing beside it") {
   CHECK(folder.names() == std::set<std::string>{"a"});
 }
 
-TEST_CASE("what lies where a file is written is neither followed nor replaced") {
+TEST_CASE("links and other things at the place of a file are neither followed nor replaced") {
   const Folder folder;
   const auto file = folder.path / "a", victim = folder.path / "victim";
   put(victim, "untouched");
@@ -153,7 +153,7 @@ TEST_CASE("what lies where a file is written is neither followed nor replaced") 
   CHECK(said([&] { full.place(); }) == "cannot write /dev/full: No space left on device");
 }
 
-TEST_CASE("whether a file can be written is asked without a trace") {
+TEST_CASE("the check whether a file can be written leaves no trace") {
   const Folder folder;
   put(folder.path / "a", "old");
   for (const char* name : {"a", "b"}) io::check_writable(folder.path / name);
@@ -176,7 +176,7 @@ TEST_CASE("whether a file can be written is asked without a trace") {
   CHECK(folder.names() == wanted);
 }
 
-TEST_CASE("a folder is one run's, and a dead run's is taken over") {
+TEST_CASE("a folder belongs to one run, and that of a dead run is taken over") {
   const Folder folder;
   const auto lock = folder.path / "lock";
   int ready[2];
@@ -220,7 +220,7 @@ TEST_CASE("a folder is one run's, and a dead run's is taken over") {
   ::close(ready[1]);
 }
 
-TEST_CASE("files are read and written alike under a locale of commas") {
+TEST_CASE("files are read and written alike under a locale with decimal commas") {
   const Folder folder;
   const WithCommas commas;
   const auto file = folder.path / "a";

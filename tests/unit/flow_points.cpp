@@ -24,7 +24,7 @@ std::string complaint(const std::string& text) {
   return "none";
 }
 
-TEST_CASE("dialects") {
+TEST_CASE("tables of flow points are read with every usual separator and comment") {
   for (const char* text :
        {"0,100\n0.01,140\n0.05,190\n0.2,230\n",
         "# steel\n\nplastic strain,flow stress\n0, 100\n 0.01 ,140 # here\n0.05,190\n0.2,230",
@@ -40,7 +40,7 @@ TEST_CASE("dialects") {
   }
 }
 
-TEST_CASE("tables that are wrong") {
+TEST_CASE("wrong tables of flow points are refused with file and line") {
   struct Wrong {
     const char *text, *sentence;
   };
@@ -73,7 +73,7 @@ TEST_CASE("tables that are wrong") {
         "a.csv, line 2: found \"???\" where a number should stand");
 }
 
-TEST_CASE("files that cannot be opened") {
+TEST_CASE("a table of flow points that cannot be opened is named") {
   CHECK_THROWS_WITH_AS((void)io::read_flow_points("/no/such/table.csv"),
                        "cannot read /no/such/table.csv: No such file or directory", std::runtime_error);
 }

@@ -64,7 +64,7 @@ std::string with(std::string text, const std::string& old, const std::string& fr
   return text.replace(at, old.size(), fresh);
 }
 
-TEST_CASE("a plane mesh, in both formats") {
+TEST_CASE("a plane Gmsh mesh is read in both formats") {
   for (const std::string& text :
        {plate, plate_v2, with(plate, "$PhysicalNames", "$Comments\nfree $ text\n$EndComments\n$PhysicalNames")}) {
     const Mesh<2, 4> m = read<2>(text);
@@ -85,7 +85,7 @@ TEST_CASE("a plane mesh, in both formats") {
   }
 }
 
-TEST_CASE("a mesh in space") {
+TEST_CASE("a spatial Gmsh mesh is read with positive cells and outward facets") {
   const Mesh<3, 8> m = read<3>(tower);
   REQUIRE(m.cell_count() == 2);
   CHECK(m.cells[0] == std::array<Index, 8>{0, 1, 2, 3, 4, 5, 6, 7});
@@ -97,7 +97,7 @@ TEST_CASE("a mesh in space") {
   CHECK(m.side("edge").nodes == std::vector<Index>{0, 1});
 }
 
-TEST_CASE("all six faces of a hexahedron look outwards") {
+TEST_CASE("all six faces of a Gmsh hexahedron are read with outward normals") {
   for (int face = 0; face < 6; ++face) {
     const std::array<std::string, 6> corners{"1 2 3 4", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"};
     const auto m = read<3>(
@@ -112,7 +112,7 @@ TEST_CASE("all six faces of a hexahedron look outwards") {
   }
 }
 
-TEST_CASE("files that are wrong") {
+TEST_CASE("wrong Gmsh files are refused with file and line") {
   struct Wrong {
     std::string text, sentence;
   };
@@ -175,7 +175,7 @@ TEST_CASE("files that are wrong") {
         "a.msh: there are no hexahedra; Gmsh saves what belongs to a physical group, or all with Mesh.SaveAll = 1");
 }
 
-TEST_CASE("cut off anywhere, a file is refused in a sentence") {
+TEST_CASE("a truncated Gmsh file is refused in one sentence") {
   for (const std::string* text : {&plate, &plate_v2}) {
     const std::size_t last = text->rfind("$EndElements") + std::string("$EndElements").size();
     for (std::size_t n = 0; n < last; ++n) {
@@ -187,7 +187,7 @@ TEST_CASE("cut off anywhere, a file is refused in a sentence") {
   }
 }
 
-TEST_CASE("counts that lie cost nothing") {
+TEST_CASE("false counts in a Gmsh file cost no memory") {
   const std::string most = "9223372036854775807";
   for (const std::string& text :
        {with(plate, "$Nodes\n2 7", "$Nodes\n" + most + " " + most), with(plate, "2 1 1 6", "2 1 1 " + most),
@@ -220,7 +220,7 @@ std::string parted(const std::string& ghosts) {
          "31\n1 14 1 1\n5 11 10\n1 15 1 1\n9 20 21\n2 21 3 1\n6 10 20 21 11\n2 22 3 1\n7 20 21 31 30\n$EndElements\n";
 }
 
-TEST_CASE("a partitioned mesh is read as the whole one, with or without ghost cells") {
+TEST_CASE("a partitioned Gmsh mesh is read as the whole one, with or without ghost cells") {
   const Mesh<2, 4> whole = read<2>(plate);
   for (const std::string ghosts : {"0", "2\n5 1\n6 2"}) {
     const Mesh<2, 4> m = read<2>(parted(ghosts));
@@ -240,7 +240,7 @@ TEST_CASE("a partitioned mesh is read as the whole one, with or without ghost ce
   CHECK(read<2>(v2).side("bottom").facets == whole.side("bottom").facets);
 }
 
-TEST_CASE("no side is lost in silence") {
+TEST_CASE("a side that a Gmsh file loses is refused by name") {
   CHECK(
       complaint(with(plate, "\"bottom\"", "\"bottom\"\n1 6 \"top\"")
                     .replace(plate.find("$PhysicalNames\n2"), 16, "$PhysicalNames\n3")) ==
@@ -251,7 +251,7 @@ TEST_CASE("no side is lost in silence") {
         "a.msh, line 46: a line of the curve 4, which the file does not list, so that its groups are lost");
 }
 
-TEST_CASE("parameters of nodes are passed over") {
+TEST_CASE("parameters of Gmsh nodes are skipped") {
   const std::string parametric = with(with(plate_v2, "$Nodes", "$ParametricNodes"), "$EndNodes", "$EndParametricNodes");
   std::string text = parametric;
   for (const auto& [old, fresh] :
@@ -273,7 +273,7 @@ TEST_CASE("parameters of nodes are passed over") {
         read<2>(plate).nodes);
 }
 
-TEST_CASE("a cell of two groups is one cell") {
+TEST_CASE("a Gmsh cell of two groups is one cell") {
   // In format 4.1 the entity has both, in format 2.2 its cells are there twice, one of them perhaps turned.
   const std::string both = with(plate, "0 1 3 0\n$EndEntities", "0 2 3 4 0\n$EndEntities");
   const std::string twice = with(with(plate_v2, "$Elements\n8", "$Elements\n10"), "8 3 2 3 1 20 21 31 30\n",
@@ -289,11 +289,11 @@ TEST_CASE("a cell of two groups is one cell") {
         "a.msh, line 28: the cell and that of line 27 lie on the same side of their common edge");
 }
 
-TEST_CASE("a mark of UTF-8 at the beginning is no text") {
+TEST_CASE("a UTF-8 byte order mark before a Gmsh file is skipped") {
   CHECK(read<2>("\xef\xbb\xbf" + plate).cells == read<2>(plate).cells);
 }
 
-TEST_CASE("nodes at one place are found") {
+TEST_CASE("coincident nodes are found") {
   Mesh<2, 4> blocks = read<2>(plate);
   CHECK(mesh::coincident_nodes(blocks).nodes == 0);
   // The right cell comes apart: nodes of its own on the common edge.
@@ -313,7 +313,7 @@ TEST_CASE("nodes at one place are found") {
   }
 }
 
-TEST_CASE("files that cannot be opened") {
+TEST_CASE("a Gmsh file that cannot be opened is named") {
   CHECK_THROWS_WITH_AS((void)io::read_gmsh<2>("/no/such/file.msh"),
                        "cannot read /no/such/file.msh: No such file or directory", std::runtime_error);
   CHECK_THROWS_WITH_AS((void)io::read_gmsh<2>("/dev/null"), "cannot read /dev/null: it is no regular file",

@@ -32,7 +32,7 @@ void check_return(const Material& material, Real gamma) {
 
 const std::vector<Real> shears{1e-8, 1e-4, 5e-4, 1e-3, 1.5e-3, 2e-3, 3e-3, 1e-2, 0.1, 1, 5, 20};
 
-TEST_CASE("return map of the power law, 589 (1e-4 + p)^0.216, from its nearly vertical start") {
+TEST_CASE("the return map solves the power law 589 (1e-4 + p)^0.216 from its nearly vertical start") {
   const FiniteJ2<PowerHardening> material{
       .young = 69004, .poisson = 0.3, .hardening = {.strength = 589, .offset = 1e-4, .exponent = 0.216}};
   CHECK(material.hardening.flow(0.0).slope > 1e5);  // steeper than Young's modulus
@@ -44,7 +44,7 @@ TEST_CASE("return map of the power law, 589 (1e-4 + p)^0.216, from its nearly ve
     check_return(material, yield * (1 - excess));
   }
 }
-TEST_CASE("return map of power laws that start still steeper") {
+TEST_CASE("the return map solves power laws of still steeper starts") {
   for (const Real offset : {1e-6, 1e-9, 1e-12})
     for (const Real exponent : {0.05, 0.216, 0.7, 1.0})
       for (const Real gamma : shears)
@@ -53,7 +53,7 @@ TEST_CASE("return map of power laws that start still steeper") {
                 .young = 69004, .poisson = 0.3, .hardening = {.strength = 589, .offset = offset, .exponent = exponent}},
             gamma);
 }
-TEST_CASE("return map of linear hardening, perfect plasticity and softening") {
+TEST_CASE("the return map solves linear hardening, perfect plasticity and softening") {
   for (const Real modulus : {260.0, 0.0, 1e7, -5.0})
     for (const Real gamma : {1e-4, 1e-3, 0.01, 0.1, 1.0})
       check_return(
@@ -73,7 +73,7 @@ struct Counted : Law {
     return Law::flow(p);
   }
 };
-TEST_CASE("the return map is Newton's: exact at once where the flow stress is linear, quick where it is steep") {
+TEST_CASE("the return map takes one iteration where the flow stress is linear and few where it is steep") {
   int asked = 0;
   const auto work = [&](const auto& law, Real gamma) {
     asked = 0;
@@ -89,7 +89,7 @@ TEST_CASE("the return map is Newton's: exact at once where the flow stress is li
     CHECK(work(Counted<PowerHardening>{{.strength = 589, .offset = 1e-4, .exponent = 0.216}, &asked}, 5 * gamma) < 20);
   }
 }
-TEST_CASE("small steps of shear gather the plastic strain of the deformation") {
+TEST_CASE("the plastic strain of many small steps is that of the deformation") {
   const FiniteJ2<LinearHardening> material{.young = 69e3, .poisson = 0.3, .hardening = {.yield = 0.3, .modulus = 0}};
   FiniteJ2<LinearHardening>::State<Real, Planar> state;
   const int steps = 2000;
@@ -101,7 +101,7 @@ TEST_CASE("small steps of shear gather the plastic strain of the deformation") {
   }
   CHECK(state.plastic_strain == doctest::Approx(0.5 * 2 / std::sqrt(3.0)).epsilon(1e-4));
 }
-TEST_CASE("flow stress and its slope") {
+TEST_CASE("power and linear hardening have the flow stress and slope of their formulas") {
   const PowerHardening power{.strength = 589, .offset = 1e-4, .exponent = 0.216};
   CHECK(power.flow(0.0).value == doctest::Approx(589 * std::pow(1e-4, 0.216)).epsilon(1e-15));
   CHECK(power.flow(0.2).slope ==

@@ -17,7 +17,7 @@ const LinearHardening linear{.yield = 31, .modulus = 261.2};
 const SwiftHardening swift{.strength = 589, .offset = 1e-2, .exponent = 0.216};
 const VoceHardening voce{.yield = 450, .saturation = 715, .rate = 16.93, .modulus = 129.24};
 
-TEST_CASE("slope, derivative of a dual number and work of the hardening laws") {
+TEST_CASE("slope, dual derivative and work of the hardening laws agree with the flow stress") {
   const std::vector<Real> strains{1e-3, 0.02, 0.3, 2};
   hardening_check::calculus(perfect, strains);
   hardening_check::calculus(linear, strains);
@@ -25,7 +25,7 @@ TEST_CASE("slope, derivative of a dual number and work of the hardening laws") {
   hardening_check::calculus(voce, strains);
   hardening_check::calculus(VoceHardening{.yield = 300, .saturation = 200, .rate = 5}, strains);
 }
-TEST_CASE("values of Voce's law: yield at the start, saturation at the end, the distance halved at ln 2 / rate") {
+TEST_CASE("Voce's law starts at yield, ends at saturation and is halfway at ln 2 / rate") {
   const VoceHardening pure{.yield = 100, .saturation = 250, .rate = 8};
   CHECK(pure.flow(0.0).value == 100);
   CHECK(pure.flow(0.0).slope == doctest::Approx(1200).epsilon(1e-15));
@@ -35,7 +35,7 @@ TEST_CASE("values of Voce's law: yield at the start, saturation at the end, the 
   CHECK(voce.flow(0.1).value == doctest::Approx(715 - 265 * std::exp(-1.693) + 12.924).epsilon(1e-14));
   CHECK(pure.work(1e-9) == doctest::Approx(1e-7).epsilon(1e-6));
 }
-TEST_CASE("values of Swift's law and of perfect plasticity") {
+TEST_CASE("Swift's law and perfect plasticity have the values of their formulas") {
   CHECK(swift.flow(0.0).value == doctest::Approx(589 * std::pow(1e-2, 0.216)).epsilon(1e-15));
   CHECK(swift.flow(0.99).value == doctest::Approx(589).epsilon(1e-15));
   CHECK(swift.flow(0.99).slope == doctest::Approx(0.216 * 589).epsilon(1e-15));

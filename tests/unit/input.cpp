@@ -74,12 +74,12 @@ bool says(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST_CASE("good input is taken") {
+TEST_CASE("valid input is accepted") {
   CHECK(complaint([] { const Problem<Plane> p(good()); }).empty());
   CHECK(complaint([] { const Problem<Turned> p(good_turned()); }).empty());
 }
 
-TEST_CASE("profiles") {
+TEST_CASE("wrong profiles are refused by name") {
   using rigid::path;
   COMPLAINS("heading", (void)path({0, 0}, {0, 0}));
   COMPLAINS("start", (void)path({nan, 0}, {1, 0}));
@@ -103,7 +103,7 @@ TEST_CASE("profiles") {
   COMPLAINS("point 2", (void)rigid::rounded({{0, 0}, {5, 0}, {5, 1}, {0, 1}}, 0.9));
 }
 
-TEST_CASE("meshes") {
+TEST_CASE("wrong parameters of mesh generators are refused by name") {
   COMPLAINS("cell", (void)mesh::rectangle({.cells = {0, 1}}));
   COMPLAINS("cell", (void)mesh::rectangle({.cells = {1, -1}}));
   COMPLAINS("size", (void)mesh::rectangle({.size = {0, 1}}));
@@ -119,7 +119,7 @@ TEST_CASE("meshes") {
   COMPLAINS("bottom, left, right, top", (void)m.side("front"));
 }
 
-TEST_CASE("bodies") {
+TEST_CASE("wrong cells and sides of a body are refused by name") {
   CHECK(says(after<Plane>(good(), [](auto& p) { p.body = {}; }), "no cells"));
   CHECK(says(after<Plane>(good(), [](auto& p) { p.body.cells[3][0] = 99; }), "cell 3"));
   CHECK(says(after<Plane>(good(),
@@ -136,7 +136,7 @@ TEST_CASE("bodies") {
              "positive radius"));
 }
 
-TEST_CASE("materials and kinematics") {
+TEST_CASE("wrong parameters of material and kinematics are refused by name") {
   CHECK(says(after<Plane>(good(), [](auto& p) { p.kinematics.thickness = 0; }), "thickness"));
   CHECK(says(after<Plane>(good(), [](auto& p) { p.kinematics.thickness = nan; }), "thickness"));
   CHECK(says(after<Plane>(good(), [](auto& p) { p.material.young = 0; }), "Young"));
@@ -159,7 +159,7 @@ TEST_CASE("materials and kinematics") {
   CHECK(says(after<Turned>(good_turned(), [](auto& p) { p.material.hardening.exponent = 1.1; }), "exponent"));
 }
 
-TEST_CASE("contacts") {
+TEST_CASE("wrong parameters of a contact are refused by name") {
   const auto contact = [](auto change) { return after<Plane>(good(), [&](auto& p) { change(p.contacts[0]); }); };
   CHECK(says(contact([](auto& c) { c.side = "lid"; }), "\"lid\""));
   CHECK(says(contact([](auto& c) { c.tool = rigid::path({0, 0}, {1, 0}); }), "contact \"top\""));
@@ -176,7 +176,7 @@ TEST_CASE("contacts") {
   CHECK(says(after<Plane>(good(), [](auto& p) { p.contacts.push_back(p.contacts[0]); }), "\"top\""));
 }
 
-TEST_CASE("friction laws") {
+TEST_CASE("wrong parameters of friction laws are refused by name") {
   CappedCoulomb{.mu = 0.1, .tau_max = infinity}.validate();
   COMPLAINS("mu ", (CappedCoulomb{.mu = -0.1, .tau_max = 1}.validate()));
   COMPLAINS("tau_max", (CappedCoulomb{.mu = 0.1}.validate()));
@@ -200,7 +200,7 @@ TEST_CASE("friction laws") {
   COMPLAINS("mu_across must be finite", (AnisotropicCoulomb{.mu_along = 1, .mu_across = infinity}.validate()));
 }
 
-TEST_CASE("inertia") {
+TEST_CASE("wrong parameters of generalised-alpha are refused by name") {
   COMPLAINS("density must be finite", GeneralizedAlpha{.density = infinity}.validate());
   COMPLAINS("density must be positive", GeneralizedAlpha{.density = nan}.validate());
   COMPLAINS("gamma", (GeneralizedAlpha{.density = 1, .scheme = {.gamma = nan}}.validate()));
@@ -214,7 +214,7 @@ TEST_CASE("inertia") {
   COMPLAINS("alpha", (void)hht(nan));
 }
 
-TEST_CASE("supports, loads, contacts by name and tools that are nowhere") {
+TEST_CASE("unknown sides, components and contacts are refused by name") {
   Problem<Plane> p(good());
   COMPLAINS("\"lid\"", p.hold("lid", 0));
   COMPLAINS("component 2", p.hold("top", 2));
@@ -234,7 +234,7 @@ TEST_CASE("supports, loads, contacts by name and tools that are nowhere") {
   COMPLAINS("contact \"top\"", (void)nowhere.march({}));
 }
 
-TEST_CASE("nodes that start deep inside a tool") {
+TEST_CASE("nodes that start deep inside a tool are refused") {
   // A unit block of elements of a quarter, over a floor half its height below.
   const auto begins = [](rigid::Profile tool, Real start_depth = 0) {
     auto parameters = good();
@@ -269,7 +269,7 @@ TEST_CASE("nodes that start deep inside a tool") {
   CHECK(says(begins(rigid::line({0, -0.5}, {1, 0}), -1), "start_depth"));
 }
 
-TEST_CASE("the smallest size of a tool, and the warning about it") {
+TEST_CASE("a tool smaller than the mesh gives a warning with its size") {
   using rigid::path;
   const auto size = [](const rigid::Profile& p) { return p.smallest_size(); };
   CHECK(size(rigid::line({0, 0}, {1, 0})) == infinity);
@@ -316,7 +316,7 @@ TEST_CASE("the smallest size of a tool, and the warning about it") {
   for (const char* part : {"contact \"top\"", "0.15", "0.5"}) CHECK(says(told[0].text, part));
 }
 
-TEST_CASE("sides and cells") {
+TEST_CASE("nodes that do not exist or are in no cell are refused by number") {
   const auto message = [](auto change) { return after<Plane>(good(), [&](auto& p) { change(p.body); }); };
   CHECK(says(message([](auto& m) { m.cells[3][0] = 99; }),
              "cell 3 names a node that does not exist, 99: the mesh has 9"));
@@ -338,7 +338,7 @@ TEST_CASE("sides and cells") {
              "side \"left\" has a facet twice: 2 joins the nodes of 0"));
 }
 
-TEST_CASE("runs") {
+TEST_CASE("wrong march options are refused by name") {
   Problem<Plane> p(good());
   COMPLAINS("end", (void)p.march({.end = 0}));
   COMPLAINS("end", (void)p.march({.end = infinity}));

@@ -29,7 +29,7 @@ Real area(const Mesh<2, 4>& m, std::size_t cell) {
   return 0.5 * twice;
 }
 
-TEST_CASE("rectangle: every node and cell once, cells counter-clockwise, areas add up") {
+TEST_CASE("a rectangle has every node and cell once, and its cells run counter-clockwise") {
   for (const auto& cells : {std::array<Index, 2>{3, 2}, {2, 3}, {1, 1}, {4, 4}, {1, 7}}) {
     const auto m = mesh::rectangle({.origin = {1, -2}, .size = {3, 4}, .cells = cells});
     CHECK(m.node_count() == (cells[0] + 1) * (cells[1] + 1));
@@ -49,7 +49,7 @@ TEST_CASE("rectangle: every node and cell once, cells counter-clockwise, areas a
   }
 }
 
-TEST_CASE("rectangle: the numbering runs along the direction with fewer cells") {
+TEST_CASE("a rectangle is numbered along the direction with fewer cells") {
   for (const auto& cells : {std::array<Index, 2>{9, 2}, {2, 9}}) {
     const auto m = mesh::rectangle({.cells = cells});
     Index widest = 0;
@@ -59,7 +59,7 @@ TEST_CASE("rectangle: the numbering runs along the direction with fewer cells") 
   }
 }
 
-TEST_CASE("rectangle: named sides lie on their lines, the body on the left of their facets") {
+TEST_CASE("the sides of a rectangle lie on their lines with the body on the left") {
   const auto m = mesh::rectangle({.origin = {1, -2}, .size = {3, 4}, .cells = {3, 2}});
   const auto check = [&](const char* name, int component, Real value, std::size_t count) {
     const auto& side = m.side(name);
@@ -78,7 +78,7 @@ TEST_CASE("rectangle: named sides lie on their lines, the body on the left of th
   check("top", 1, 2, 3);
 }
 
-TEST_CASE("the area that a node carries of a facet") {
+TEST_CASE("the tributary areas of an edge are those of its kinematics") {
   const auto m = mesh::rectangle({.origin = {1, 0}, .size = {2, 1}, .cells = {1, 1}});
   const auto bottom = m.side("bottom").facets[0];
   CHECK(tributary_area(m, PlaneStrain{.thickness = 3}, bottom, bottom[0]) == doctest::Approx(3).epsilon(1e-15));
@@ -91,7 +91,7 @@ TEST_CASE("the area that a node carries of a facet") {
   CHECK(inner + outer == doctest::Approx(pi * (9 - 1)).epsilon(1e-14));
 }
 
-TEST_CASE("bilinear shape functions: partition of one, and the rule integrates the area") {
+TEST_CASE("bilinear shape functions sum to one, and the quadrature integrates the area") {
   const auto rule = Quad4::quadrature();
   Mat<Real, 4, 2> X;
   X << 1.0, 0.1, 2.3, -0.2, 2.0, 1.4, 0.8, 0.9;
@@ -120,7 +120,7 @@ Real volume(const Mesh<3, 8>& m, std::size_t cell) {
   return sum;
 }
 
-TEST_CASE("box: every node and cell once, cells of positive volume, volumes add up") {
+TEST_CASE("a box has every node and cell once, and its volumes are positive and add up") {
   for (const auto& cells : {std::array<Index, 3>{3, 2, 4}, {4, 3, 2}, {2, 4, 3}, {1, 1, 1}, {2, 2, 2}, {1, 5, 1}}) {
     const auto m = mesh::box({.origin = {1, -2, 5}, .size = {3, 4, 2}, .cells = cells});
     CHECK(m.node_count() == (cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1));
@@ -137,7 +137,7 @@ TEST_CASE("box: every node and cell once, cells of positive volume, volumes add 
   }
 }
 
-TEST_CASE("box: the numbering runs along the direction with the fewest cells") {
+TEST_CASE("a box is numbered along the direction with the fewest cells") {
   for (const auto& cells : {std::array<Index, 3>{9, 2, 4}, {2, 4, 9}, {4, 9, 2}}) {
     const auto m = mesh::box({.cells = cells});
     Index widest = 0;
@@ -147,7 +147,7 @@ TEST_CASE("box: the numbering runs along the direction with the fewest cells") {
   }
 }
 
-TEST_CASE("box: named sides lie on their planes, the normals of their facets point outwards") {
+TEST_CASE("the sides of a box lie on their planes with outward normals") {
   const V3 origin(1, -2, 5), size(3, 4, 2);
   const std::array<Index, 3> cells{3, 2, 4};
   const auto m = mesh::box({.origin = origin, .size = size, .cells = cells});
@@ -177,7 +177,7 @@ TEST_CASE("box: named sides lie on their planes, the normals of their facets poi
   check("front", 2, 1);
 }
 
-TEST_CASE("quarter disc: every node and cell once, convex cells, the area of the polygon of its rim") {
+TEST_CASE("a quarter disc has every node and cell once, convex cells and the area of its polygon") {
   for (const auto& cells : {std::array<Index, 2>{1, 1}, {2, 3}, {7, 7}, {9, 2}, {1, 6}}) {
     const Real radius = 3;
     const auto m = mesh::quarter_disc({.radius = radius, .cells = cells});
@@ -208,7 +208,7 @@ TEST_CASE("quarter disc: every node and cell once, convex cells, the area of the
   }
 }
 
-TEST_CASE("quarter disc: sides on the axes and the circle, cells of one length along the axes") {
+TEST_CASE("the sides of a quarter disc lie on the axes and the circle, with equal cells along the axes") {
   const auto m = mesh::quarter_disc({.radius = 14, .cells = {7, 7}});
   const auto inside = [&](const std::array<Index, 2>& facet) {
     const Vec<Real, 2> a = m.nodes[std::size_t(facet[0])], along = m.nodes[std::size_t(facet[1])] - a,
@@ -259,7 +259,7 @@ TEST_CASE("an extruded rectangle is a box") {
   }
 }
 
-TEST_CASE("an extruded quarter disc: cells of positive volume that add up, a closed skin, named faces") {
+TEST_CASE("an extruded quarter disc has positive volumes, a closed surface and named faces") {
   const auto m = mesh::extrude(mesh::quarter_disc({.radius = 3, .cells = {4, 3}}),
                                {.thickness = 0.5, .layers = 2, .low = "bottom", .high = "top"});
   Real sum = 0;
@@ -288,7 +288,7 @@ TEST_CASE("an extruded quarter disc: cells of positive volume that add up, a clo
   CHECK(m.side("x=0").nodes.size() == 24);
 }
 
-TEST_CASE("generators name the input that they cannot take") {
+TEST_CASE("extrusion and quarter disc refuse wrong input by name") {
   const auto complaint = [](auto&& make) -> std::string {
     try {
       make();
@@ -310,7 +310,7 @@ TEST_CASE("generators name the input that they cannot take") {
   CHECK(complaint([&] { mesh::extrude(flat, {.low = "a", .high = "a"}); }).find("\"a\"") != std::string::npos);
 }
 
-TEST_CASE("the area that a node carries of a facet in space") {
+TEST_CASE("the tributary areas of a facet in space are the integrals of its shape functions") {
   Mesh<3, 8> m;
   const std::array<Index, 4> facet{0, 1, 2, 3};
   // Flat, no parallel edges, in a tilted plane: the integral of N_a over it, by quadrature.
@@ -335,7 +335,7 @@ TEST_CASE("the area that a node carries of a facet in space") {
   CHECK(sum == doctest::Approx(0.5 * cross(m.nodes[2] - m.nodes[0], m.nodes[3] - m.nodes[1]).norm()).epsilon(1e-14));
 }
 
-TEST_CASE("trilinear shape functions: partition of one, nodal values, and gradients that reproduce a linear field") {
+TEST_CASE("trilinear shape functions sum to one and reproduce a linear field") {
   Mat<Real, 8, 3> X;
   for (int a = 0; a < 8; ++a)
     for (int i = 0; i < 3; ++i)
@@ -354,7 +354,7 @@ TEST_CASE("trilinear shape functions: partition of one, nodal values, and gradie
   }
 }
 
-TEST_CASE("dofs number the unknowns and move fields to and fro") {
+TEST_CASE("the index map numbers the free components and converts fields in both directions") {
   const IndexMap dofs(6, {false, true, false, false, true, false});
   CHECK(dofs.unknowns() == 4);
   CHECK(dofs.components() == 6);

@@ -124,7 +124,7 @@ TEST_CASE("a symmetric system stores its lower triangle only") {
   const auto mesh = mesh::rectangle({.cells = {3, 3}});
   const auto count = [&](auto tag) {
     using M = decltype(tag);
-    Body<M> body(mesh, {}, {.young = 1, .poisson = 0.3});
+    Bodies<M> body(mesh, {}, {.young = 1, .poisson = 0.3});
     ContactPairs<M> pairs;
     typename System<M>::Inertia inertia{};
     System<M> system(body, pairs, inertia, {{"bottom", 1, nullptr}}, {});

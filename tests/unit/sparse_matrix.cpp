@@ -52,7 +52,7 @@ TEST_CASE("lower triangle and full storage hold the same matrix") {
   // The triangle alone: half of the off-diagonal entries.
   CHECK(2 * lower.nonzeros - full.matrix.rows() == full.nonzeros);
 }
-TEST_CASE("the view names its storage, and its rows ascend") {
+TEST_CASE("a matrix view has the storage of its symmetry and ascending rows") {
   const IndexMap dofs(4, std::vector<bool>(4, false));
   SparseMatrix<Symmetry::symmetric> matrix;
   const std::array<Index, 4> group{3, 1, 0, 2};
@@ -68,7 +68,7 @@ TEST_CASE("the view names its storage, and its rows ascend") {
       if (k > view.column_start[j]) CHECK(view.row[k] > view.row[k - 1]);
     }
 }
-TEST_CASE("mirror copies the lower triangle into the upper one") {
+TEST_CASE("copy_lower_to_upper makes a matrix of every element size symmetric") {
   // Written for every size that an element of the plane or of space has; see the compiler note at mirror().
   const auto check = [](auto size) {
     constexpr int n = decltype(size)::value;

@@ -41,7 +41,7 @@ T turned(const Vec<Real, 3>& values, Real angle) {
   return tensor(M3(0.5 * (m + m.transpose())));
 }
 
-TEST_CASE("spatial tensor algebra is that of 3 x 3 matrices") {
+TEST_CASE("spatial tensor products, inverses and determinants are those of 3 x 3 matrices") {
   std::mt19937 source(7);
   for (int n = 0; n < 20; ++n) {
     const M3 A = random_matrix(source), B = random_matrix(source);
@@ -58,7 +58,7 @@ TEST_CASE("spatial tensor algebra is that of 3 x 3 matrices") {
   CHECK((full(T::identity()) - M3::Identity()).norm() == 0);
 }
 
-TEST_CASE("a spatial tensor of the plane's pattern is the planar one") {
+TEST_CASE("a spatial tensor of the planar pattern has the algebra of the planar one") {
   Tensor<Real, Planar> t;
   t.v << 1.2, 0.3, -0.7, 0.9, 1.7;
   const T s = tensor(full(t));
@@ -67,7 +67,7 @@ TEST_CASE("a spatial tensor of the plane's pattern is the planar one") {
   CHECK((full(adjugate(s)) - full(adjugate(t))).norm() < 1e-15);
 }
 
-TEST_CASE("von Mises in space: the three shears weigh alike, pressure not at all") {
+TEST_CASE("von Mises stress in space weighs the three shears alike and ignores pressure") {
   for (const auto& [i, j] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 2)}) {
     T t;
     t(i, j) = t(j, i) = 2;
@@ -76,7 +76,7 @@ TEST_CASE("von Mises in space: the three shears weigh alike, pressure not at all
   CHECK(von_mises(tensor(M3(-5 * M3::Identity()))) == 0);
 }
 
-TEST_CASE("a symmetric spatial tensor spreads to both off-diagonal components") {
+TEST_CASE("a symmetric spatial tensor fills both off-diagonal components") {
   SymmetricTensor<Real, Spatial> s;
   s.v << 1, 2, 3, 4, 5, 6;
   CHECK(full(s.full()) == M3{{1, 4, 6}, {4, 2, 5}, {6, 5, 3}});
@@ -90,7 +90,7 @@ void check_spectral(const T& t) {
   CHECK((n * s.values.asDiagonal() * n.transpose() - full(t)).norm() <= 4e-15 * full(t).norm());
 }
 
-TEST_CASE("spectral form in space: apart, nearly equal, equal") {
+TEST_CASE("the spatial spectral form is exact for distinct, nearly equal and equal values") {
   std::mt19937 source(11);
   for (int n = 0; n < 200; ++n) {
     const M3 A = random_matrix(source);
@@ -121,7 +121,7 @@ TEST_CASE("the smallest principal value of a positive tensor keeps its digits") 
   CHECK(s.values.prod() * 1e24 == doctest::Approx(determinant(tensor(inner))).epsilon(1e-14));
 }
 
-TEST_CASE("the spectral form of dual numbers carries the derivatives of values and directions") {
+TEST_CASE("the spectral form of dual numbers has the derivatives of values and directions") {
   const T t = turned({0.7, 1.1, 1.6}, 0.9);
   Tensor<Dual<6>, Spatial> dual;
   for (int a = 0; a < 6; ++a) {
@@ -151,7 +151,7 @@ TEST_CASE("the spectral form of dual numbers carries the derivatives of values a
   }
 }
 
-TEST_CASE("at equal values, duals differentiate what is symmetric in the values") {
+TEST_CASE("dual numbers differentiate symmetric functions of equal principal values") {
   // sum of v^3 is tr t^3, whose slope is 3 t^2.
   for (const Vec<Real, 3>& values : {Vec<Real, 3>(2, 2, 2), Vec<Real, 3>(2, 3, 2), Vec<Real, 3>(3, 2, 2)}) {
     const T t = tensor(M3(values.asDiagonal()));
@@ -164,7 +164,7 @@ TEST_CASE("at equal values, duals differentiate what is symmetric in the values"
   }
 }
 
-TEST_CASE("duals go through the inverse and the determinant") {
+TEST_CASE("dual numbers differentiate inverse and determinant") {
   const T t = tensor(M3{{1.2, 0.3, -0.1}, {0.2, 0.9, 0.4}, {-0.3, 0.1, 1.1}});
   Tensor<Dual<9>, Spatial> dual;
   dual.v = verify::seeded<9>(t.v);

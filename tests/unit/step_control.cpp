@@ -54,11 +54,11 @@ TEST_CASE("equal steps return to their grid after a rejection") {
     CHECK(times[i] == doctest::Approx(expected[i]).epsilon(1e-14));
   CHECK(holds(times, 0.5));
 }
-TEST_CASE("equal steps and stops") {
+TEST_CASE("equal steps meet stops between their grid points") {
   const auto times = run({.end = 1, .steps = 4, .stops = {0.6, 0.5}}, 0, [](Real, Real) { return 3; });
   CHECK(times == std::vector<Real>{0, 0.25, 0.5, 0.6, 0.75, 1});
 }
-TEST_CASE("automatic steps meet every stop and the end exactly, and leave no slivers") {
+TEST_CASE("automatic steps meet every stop and the end exactly, without tiny remainders") {
   for (const Real initial : {0.01, 0.0371, 0.2})
     for (const Index n : {2, 3, 4, 6}) {
       const std::vector<Real> stops{0.7, 0.1234567, 0.5, 1.0};  // in no order, one of them the end
@@ -70,7 +70,7 @@ TEST_CASE("automatic steps meet every stop and the end exactly, and leave no sli
       CHECK(shortest(times) > 0.2 * std::min(initial, 0.03));
     }
 }
-TEST_CASE("automatic steps grow when Newton is quick, shrink when it is slow, and keep the limits") {
+TEST_CASE("automatic steps grow after few iterations, shrink after many, and keep the limits") {
   const auto quick = run({.end = 1, .initial = 0.01, .largest = 0.1}, 0, [](Real, Real) { return 2; });
   CHECK(quick[1] == 0.01);
   CHECK(quick[2] - quick[1] == doctest::Approx(0.01 * std::sqrt(2.0)));
@@ -81,7 +81,7 @@ TEST_CASE("automatic steps grow when Newton is quick, shrink when it is slow, an
   const auto level = run({.end = 1, .initial = 0.125}, 0, [](Real, Real) { return 4; });
   CHECK(level.size() == 9);
 }
-TEST_CASE("the first automatic step is a hundredth of the run, or what is asked") {
+TEST_CASE("the first automatic step is a hundredth of the run unless given") {
   CHECK(StepControl({.end = 3}, 1).next() == doctest::Approx(1.02));
   CHECK(StepControl({.end = 3, .initial = 0.5}, 1).next() == doctest::Approx(1.5));
   CHECK(StepControl({.end = 3, .initial = 0.5, .largest = 0.1}, 1).next() == doctest::Approx(1.1));
@@ -114,7 +114,7 @@ TEST_CASE("a step that never converges is given up below the smallest size") {
   CHECK(smallest >= 1e-4);
   CHECK(smallest < 1e-3);
 }
-TEST_CASE("equal steps come back from any cut, in steps that go with its logarithm") {
+TEST_CASE("equal steps return to their grid in a number of steps proportional to the logarithm of the cut") {
   // A first contact at 0.3001, which only steps below `depth` get over; in 4 equal steps.
   for (const Real depth : {1e-2, 1e-4, 1e-6, 1e-8}) {
     const Real event = 0.3001;
@@ -131,7 +131,7 @@ TEST_CASE("equal steps come back from any cut, in steps that go with its logarit
     CHECK(times[times.size() - 2] == 0.75);
   }
 }
-TEST_CASE("where equal steps stay too long, few of the shorter ones are tried in vain") {
+TEST_CASE("where equal steps stay too long, few enlarged ones are rejected") {
   int vain = 0;
   const auto times = run({.end = 1, .steps = 2}, 0, [&](Real from, Real to) {
     if (to - from < 5e-3) return 5;
@@ -142,7 +142,7 @@ TEST_CASE("where equal steps stay too long, few of the shorter ones are tried in
   CHECK(times.size() < 450);
   CHECK(vain < 150);
 }
-TEST_CASE("steps that time does not resolve are refused, or given up") {
+TEST_CASE("steps below the resolution of the time are refused or given up") {
   const auto refused = [](const MarchOptions& options, Real now, const char* part) {
     CHECK_THROWS_WITH_AS(options.validate(now), doctest::Contains(part), std::invalid_argument);
   };
@@ -183,7 +183,7 @@ TEST_CASE("a step shortened by a stop does not shrink the steps after it") {
   CHECK(after == doctest::Approx(1));
 }
 
-TEST_CASE("an outcome says what, where, when and how often") {
+TEST_CASE("an outcome's message has cause, location, step, time and attempts") {
   CHECK(Outcome{}.message() == "completed");
   CHECK(bool(Outcome{}));
   const Outcome bad{.failure = {FailureCause::element_inverted, {Location::Kind::element, 17}},

@@ -62,7 +62,7 @@ void same(const rigid::Triangles& a, const rigid::Triangles& b, Real tolerance) 
   CHECK(worst <= tolerance);
 }
 
-TEST_CASE("written and read again") {
+TEST_CASE("a surface written as STL is read back, exactly from ASCII and in single precision from binary") {
   const auto ball = icosphere(2);
   const File file;
   io::write_stl(file.path, ball, io::StlFormat::ascii);
@@ -72,7 +72,7 @@ TEST_CASE("written and read again") {
   CHECK(std::filesystem::file_size(file.path) == 84 + 50 * ball.corners.size());
 }
 
-TEST_CASE("dialects") {
+TEST_CASE("ASCII STL is read in any case, with several solids and signs") {
   CHECK(complaint("solid a b c\n" + facet + "endsolid a b c\n") == "none");
   CHECK(complaint("  solid\r\n" + facet + "endsolid") == "none");
   CHECK(complaint("solid one\n" + facet + "endsolid one\nsolid two\n" + facet + "endsolid\n") == "none");
@@ -93,7 +93,7 @@ TEST_CASE("dialects") {
   CHECK(complaint(bytes) == "none");
 }
 
-TEST_CASE("corners that coincide become one vertex") {
+TEST_CASE("coincident STL corners become one vertex") {
   const auto quad = [](const std::string& near) {
     return "solid\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex " + near +
            "\nendloop\nendfacet\nendsolid\n";
@@ -118,7 +118,7 @@ TEST_CASE("corners that coincide become one vertex") {
   CHECK_THROWS_AS((void)io::read_stl(needle.path, -1), std::invalid_argument);
 }
 
-TEST_CASE("surfaces of any size") {
+TEST_CASE("STL surfaces of any representable size are read") {
   for (const char* size : {"1e-200", "1e-100", "1e100", "1e200", "1.7e308"})
     for (const Real merge : {0.0, 1e-300, 1e-6}) {
       std::istringstream in(std::string("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex ") + size +
@@ -134,7 +134,7 @@ TEST_CASE("surfaces of any size") {
     }
 }
 
-TEST_CASE("ASCII files that are wrong") {
+TEST_CASE("wrong ASCII STL files are refused with their line") {
   SAYS("line 3: found \"facet\" where \"outer\"", "solid\nfacet normal 0 0 1\nfacet\n");
   SAYS("line 2: found \"triangle\" where \"facet\" or \"endsolid\"", "solid\ntriangle\n");
   SAYS("line 2: found \"up\" where a number", "solid\nfacet normal up 0 1\n");
@@ -152,7 +152,7 @@ TEST_CASE("ASCII files that are wrong") {
   SAYS("there are no triangles", "solid nothing\nendsolid nothing\n");
 }
 
-TEST_CASE("habits of other writers") {
+TEST_CASE("STL files with NaN normals, byte order marks or trailing bytes are read") {
   const auto read = [](const std::string& text, io::Outside outside = io::Outside::agreed) {
     std::istringstream in(text);
     return io::read_stl(in, "a.stl", 1e-6, outside);
@@ -197,7 +197,7 @@ TEST_CASE("habits of other writers") {
   same(read(none), ball, 1e-7);
 }
 
-TEST_CASE("corners and normals that contradict each other") {
+TEST_CASE("STL corners and normals that contradict each other are refused unless one is chosen") {
   const auto ball = icosphere(1);
   auto turned = ball;
   for (auto& corners : turned.corners) std::swap(corners[1], corners[2]);
@@ -269,7 +269,7 @@ void closed(const rigid::Triangles& s, Real volume) {
   CHECK(sum == doctest::Approx(volume));
 }
 
-TEST_CASE("triangles without area fill no seam") {
+TEST_CASE("degenerate STL triangles that close a seam are refused or removed") {
   // A tetrahedron with vertices on an edge of one face, which the neighbour does not have: fillers close the seam.
   const auto solid = [](const std::vector<Vec<Real, 3>>& x, const std::vector<std::array<int, 3>>& triangles) {
     std::ostringstream out;
@@ -305,7 +305,7 @@ TEST_CASE("triangles without area fill no seam") {
   CHECK_THROWS_WITH_AS((void)solid(x, {{0, 4, 1}}), "a.stl: all triangles are degenerate", std::runtime_error);
 }
 
-TEST_CASE("binary files that are wrong") {
+TEST_CASE("wrong binary STL files are refused with their byte") {
   const File file;
   io::write_stl(file.path, icosphere(0));
   const std::string good = file.text();
@@ -328,7 +328,7 @@ TEST_CASE("binary files that are wrong") {
   SAYS("there are no triangles", changed);
 }
 
-TEST_CASE("files that cannot be opened") {
+TEST_CASE("an STL file that cannot be opened or written is named") {
   const auto says = [](auto&& act) {
     try {
       act();

@@ -18,13 +18,13 @@ using namespace stickslip;
 const std::vector<FlowPoint> points{{0, 100}, {0.01, 140}, {0.05, 190}, {0.2, 230}, {0.5, 231}, {1, 260}};
 const TabulatedHardening flat(points), straight(points, BeyondTable::linear);
 
-TEST_CASE("slope, derivative of a dual number and work of a table") {
+TEST_CASE("slope, dual derivative and work of a table agree with its flow stress") {
   const std::vector<Real> strains{1e-3, 0.02, 0.13, 0.3, 0.9};
   hardening_check::calculus(flat, strains);
   hardening_check::calculus(flat, {0.45, 1.5, 3});
   hardening_check::calculus(straight, {0.9, 1.5, 3});
 }
-TEST_CASE("a table is met at its points, with a slope that does not jump") {
+TEST_CASE("a table is interpolated through its points with a continuous slope") {
   for (const FlowPoint& point : points) {
     CHECK(flat.flow(point.strain).value == doctest::Approx(point.stress).epsilon(1e-15));
     if (point.strain > 0 && point.strain < 1)
@@ -45,7 +45,7 @@ TEST_CASE("a rising table is interpolated without an extremum, also beside a pla
   }
   CHECK(steps.flow(0.05).value == doctest::Approx(100).epsilon(1e-14));
 }
-TEST_CASE("behind the last point: constant, or straight on") {
+TEST_CASE("beyond its last point a table is constant or continues straight") {
   CHECK(flat.flow(1.0).value == 260);
   CHECK(flat.flow(5.0).value == 260);
   CHECK(flat.flow(5.0).slope == 0);
@@ -60,7 +60,7 @@ TEST_CASE("a dense table of a smooth law gives the law's stress and work") {
   for (Real p = 0.0123; p < 1; p += 0.0717) CHECK(law.flow(p).value == doctest::Approx(smooth(p)).epsilon(1e-5));
   CHECK(law.work(1) == doctest::Approx(250 - 150. / 8 * (1 - std::exp(-8.0))).epsilon(1e-5));
 }
-TEST_CASE("tangent and memory of plastic flow along a table") {
+TEST_CASE("plastic flow along a table has an exact tangent and history") {
   const FiniteJ2<TabulatedHardening> metal{.young = 70e3, .poisson = 0.33, .hardening = flat};
   CHECK_NOTHROW(metal.validate());
   Tensor<Real, Planar> F;
@@ -77,14 +77,14 @@ TEST_CASE("tangent and memory of plastic flow along a table") {
     CHECK(verify::material_memory(metal, p) < 1e-11);
   }
 }
-TEST_CASE("a table from a file") {
+TEST_CASE("a table read from a file hardens as its points") {
   std::istringstream in("strain, stress\n0, 100\n0.01, 140\n0.05, 190\n0.2, 230\n");
   const FiniteJ2<TabulatedHardening> metal{
       .young = 70e3, .poisson = 0.33, .hardening = io::read_flow_points(in, "steel.csv")};
   CHECK_NOTHROW(metal.validate());
   CHECK(metal.hardening.flow(0.05).value == doctest::Approx(190).epsilon(1e-14));
 }
-TEST_CASE("a wrong table is refused in a sentence") {
+TEST_CASE("a wrong table is refused in one sentence") {
   const auto refuses = [](const std::vector<FlowPoint>& table, const char* sentence) {
     CHECK_THROWS_WITH_AS(TabulatedHardening{table}, sentence, std::invalid_argument);
   };

@@ -25,7 +25,7 @@ Mat<Real, 3> full(const T& t) {
   return m;
 }
 
-TEST_CASE("tensor algebra is that of 3 x 3 matrices") {
+TEST_CASE("planar tensor products, inverses and determinants are those of 3 x 3 matrices") {
   const T a = tensor(1.2, 0.3, -0.7, 0.9, 1.7), b = tensor(-0.4, 0.2, 0.8, 1.1, 0.6);
   CHECK((full(product(a, b)) - full(a) * full(b)).norm() < 1e-15);
   CHECK((full(transpose(a)) - full(a).transpose()).norm() == 0);
@@ -36,13 +36,13 @@ TEST_CASE("tensor algebra is that of 3 x 3 matrices") {
   CHECK((full(T::identity()) - Mat<Real, 3>::Identity()).norm() == 0);
 }
 
-TEST_CASE("von Mises: uniaxial, shear and pressure") {
+TEST_CASE("von Mises stress is right in tension, shear and pressure") {
   CHECK(von_mises(tensor(7, 0, 0, 0, 0)) == doctest::Approx(7).epsilon(1e-15));
   CHECK(von_mises(tensor(0, 2, 2, 0, 0)) == doctest::Approx(2 * std::sqrt(3.0)).epsilon(1e-15));
   CHECK(von_mises(tensor(-5, 0, 0, -5, -5)) == 0);
 }
 
-TEST_CASE("a symmetric tensor spreads to both off-diagonal components") {
+TEST_CASE("a symmetric planar tensor fills both off-diagonal components") {
   SymmetricTensor<Real, Planar> s;
   s.v << 1, 2, 3, 4;
   const T t = s.full();
@@ -61,7 +61,7 @@ void check_spectral(const T& t) {
   CHECK((back - full(t)).norm() <= 4e-15 * full(t).norm());
 }
 
-TEST_CASE("spectral form: apart, nearly equal, equal") {
+TEST_CASE("the planar spectral form is exact for distinct, nearly equal and equal values") {
   check_spectral(tensor(2, 0.5, 0.5, 1, 3));
   check_spectral(tensor(1, 0.5, 0.5, 2, 3));
   check_spectral(tensor(1, -0.5, -0.5, 2, 3));
@@ -90,7 +90,7 @@ TEST_CASE("the smaller principal value of a nearly singular tensor keeps its dig
   CHECK(std::min(s.values[0], s.values[1]) == doctest::Approx(1).epsilon(1e-3));
 }
 
-TEST_CASE("the divided difference of the logarithm") {
+TEST_CASE("the divided difference of the logarithm keeps its digits near equal arguments") {
   CHECK(log_difference(2.0, 2.0) == 0.5);
   CHECK(log_difference(3.0, 1.0) == doctest::Approx(std::log(3.0) / 2).epsilon(1e-15));
   for (const Real x : {1e-1, 2e-3, 1.0001e-3, 0.9999e-3, 1e-4, 1e-8, 1e-16, -1e-1, -2e-3, -0.9999e-3, -1e-8}) {
@@ -124,7 +124,7 @@ void check_function(F f, Real x) {
   CHECK(y.slope[1] == doctest::Approx(slope).epsilon(1e-9));
   CHECK(y.slope[0] == 0);
 }
-TEST_CASE("functions of dual numbers") {
+TEST_CASE("functions of dual numbers have exact derivatives") {
   using D = Dual<2>;
   const D c(0.7);
   for (const Real x : {0.3, 1.4}) {
@@ -169,7 +169,7 @@ TEST_CASE("dual numbers compare by value") {
   CHECK(value_of(c) == 2);
 }
 
-TEST_CASE("logarithm, exponential and determinant near one keep the digits of what is added to it") {
+TEST_CASE("logarithm, exponential and determinant near one keep the digits of the increment") {
   for (int k = -200; k < 0; ++k)
     for (const Real sign : {-0.9, 1.0}) {
       const Real x = sign * std::pow(10.0, 0.1 * k);

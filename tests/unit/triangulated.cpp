@@ -54,8 +54,7 @@ Triangles bar(int n) {
   return s;
 }
 
-TEST_CASE(
-    "a triangulated sphere converges: gap with more than the third, normal with more than the second power of h") {
+TEST_CASE("the gap of a triangulated sphere converges faster than h^3, the normal faster than h^2") {
   std::array<Real, 2> before{};
   for (const int level : {1, 2, 3, 4}) {
     const Triangulated ball(icosphere(level));
@@ -78,7 +77,7 @@ TEST_CASE(
   CHECK(before[0] < 1e-6);
 }
 
-TEST_CASE("normals made of the facets serve an ellipsoid, and given ones serve it better") {
+TEST_CASE("an ellipsoid converges with normals averaged from facets, and better with given ones") {
   const V3 axes(1, 0.7, 1.3);
   const V3 inverse = axes.cwiseInverse();
   std::array<std::array<Real, 2>, 2> before{};
@@ -111,7 +110,7 @@ TEST_CASE("normals made of the facets serve an ellipsoid, and given ones serve i
   }
 }
 
-TEST_CASE("gap, normal and Hessian belong to one another on, off and inside a triangulated surface") {
+TEST_CASE("gap, normal and Hessian of a triangulated surface are consistent on, outside and inside it") {
   const Triangulated ball(icosphere(2));
   Real worst = 0, third = 0;
   for (const V3& d : directions(300, 8))
@@ -129,7 +128,7 @@ TEST_CASE("gap, normal and Hessian belong to one another on, off and inside a tr
   CHECK(third < 1e-5);
 }
 
-TEST_CASE("across the edges of a smooth surface gap and normal jump with the second power of h at most") {
+TEST_CASE("gap and normal jump at most by h^2 across the edges of a smooth triangulated surface") {
   std::array<Real, 2> before{};
   for (const int level : {1, 2, 3}) {
     const Triangles s = icosphere(level);
@@ -157,7 +156,7 @@ TEST_CASE("across the edges of a smooth surface gap and normal jump with the sec
   }
 }
 
-TEST_CASE("the search tree finds what a look at all triangles finds") {
+TEST_CASE("the search tree finds the closest of all triangles") {
   for (const auto& s : {icosphere(3), cube(1), bar(12)}) {
     const Triangulated tool(s);
     std::mt19937 random(21);
@@ -176,7 +175,7 @@ TEST_CASE("the search tree finds what a look at all triangles finds") {
   }
 }
 
-TEST_CASE("sharp edges: a cube from outside, and the hollow of one") {
+TEST_CASE("a cube and its hollow have exact gaps at sharp edges") {
   const Triangulated block(cube(1)), hollow(cube(1, true));
   std::mt19937 random(2);
   std::uniform_real_distribution<Real> u(-2, 2);
@@ -205,7 +204,7 @@ TEST_CASE("sharp edges: a cube from outside, and the hollow of one") {
   CHECK(pebble.distance(V3(0, 0, 0)).gap < 0);
 }
 
-TEST_CASE("a bar with flat ends: the sharp rim is as round as the bar") {
+TEST_CASE("the sharp rim of a flat-ended bar is as round as the bar") {
   Real before = 0;
   for (const int n : {12, 24, 48}) {
     const Triangulated tool(bar(n));
@@ -230,7 +229,7 @@ TEST_CASE("a bar with flat ends: the sharp rim is as round as the bar") {
   }
 }
 
-TEST_CASE("past an open edge there is no contact") {
+TEST_CASE("past an open edge of a triangulated surface there is no contact") {
   Triangles s;
   s.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   s.corners = {{0, 1, 2}, {0, 2, 3}};
@@ -245,7 +244,7 @@ TEST_CASE("past an open edge there is no contact") {
   CHECK(derivatives(plate, V3(-0.1, -0.1, -0.1)).worst() < 1e-12);
 }
 
-TEST_CASE("a patch that its normals would fold becomes flat") {
+TEST_CASE("a patch that its normals would fold is flat") {
   Triangles s;
   s.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   s.corners = {{0, 1, 2}};
@@ -255,7 +254,7 @@ TEST_CASE("a patch that its normals would fold becomes flat") {
   CHECK((at.normal - V3(0, 0, 1)).norm() < 1e-12);
 }
 
-TEST_CASE("far away, in the middle and at points that are no numbers") {
+TEST_CASE("a triangulated surface has a gap far away and at its centre, and none at NaN") {
   const Triangulated ball(icosphere(2));
   CHECK(ball.distance(V3(300, -400, 0)).gap == doctest::Approx(499).epsilon(1e-5));
   const auto middle = ball.distance(V3(0, 0, 0));
@@ -268,7 +267,7 @@ TEST_CASE("far away, in the middle and at points that are no numbers") {
   CHECK(any.distance(V3(2, 1, 1)).gap == ball.distance(V3(2, 1, 1)).gap);
 }
 
-TEST_CASE("the smallest size of a closed surface is the least edge of its box, of an open one the largest") {
+TEST_CASE("the smallest size of a closed surface is the shortest edge of its box, of an open one the longest") {
   CHECK(Triangulated(cube(0.25)).smallest_size() == doctest::Approx(0.5));
   Triangles flat = cube(1);
   for (V3& x : flat.vertices) x[2] *= 0.1;
@@ -277,7 +276,7 @@ TEST_CASE("the smallest size of a closed surface is the least edge of its box, o
   CHECK(Triangulated(flat).smallest_size() == doctest::Approx(2));
 }
 
-TEST_CASE("triangles that are wrong are named") {
+TEST_CASE("wrong triangles are refused by number") {
   const auto complaint = [](auto&& change, Real crease = 1) -> std::string {
     Triangles s = cube(1);
     change(s);

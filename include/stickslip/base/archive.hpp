@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/members.hpp>
 #include <stickslip/base/types.hpp>
 
 #include <cxxabi.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <concepts>
@@ -24,9 +26,10 @@
 
 namespace stickslip {
 
-/// A part of a state under its name: `count` values of `size` bytes each.
+/// A part of a state under its name: `count` values of `size` bytes each, without gaps, of a `layout` as in
+/// members.hpp.
 struct Section {
-  std::string name;
+  std::string name, layout{};
   std::uint64_t size = 0, count = 0;
   std::vector<char> bytes{};
 };
@@ -40,14 +43,6 @@ template <class T>
 } > {};
 template <class T, std::size_t n>
 struct Serializes<std::array<T, n>> : Serializes<T> {};
-
-// Whether a value may be kept as its bytes: it owns nothing and points nowhere. (Eigen's vectors of fixed size are not
-// trivially copyable by name, but own nothing either.)
-template <class T>
-inline constexpr bool is_its_bytes =
-    std::is_trivially_destructible_v<T> && !std::is_polymorphic_v<T> && !std::is_pointer_v<T>;
-template <class T, std::size_t n>
-inline constexpr bool is_its_bytes<std::array<T, n>> = is_its_bytes<T>;
 }  // namespace detail
 
 /// A state in memory, as a list of named sections: what io/checkpoint.hpp writes to a file. What can be archived has a
@@ -80,12 +75,12 @@ class Archive {
   /// Whether `serialize` is being called to give the object its state, so that what depends on it must follow.
   bool loading() const { return mode_ == Mode::giving; }
 
-  /// A value, or a list of a length that the object knows: of numbers, of structs of numbers, or of what has a
-  /// `serialize` itself.
+  /// A value, or a list of a length that the object knows: of numbers, of structs that list their members, or of what
+  /// has a `serialize` itself.
   template <class T>
   void operator()(const std::string& name, T& value) {
     if constexpr (std::same_as<T, Field>)
-      exchange(name, value.data(), static_cast<std::size_t>(value.size()), sizeof(Real));
+      exchange_list(name, value.data(), static_cast<std::size_t>(value.size()));
     else
       exchange_list(name, &value, 1);
   }
@@ -96,19 +91,21 @@ class Archive {
   /// A list that may have another length than the object's has now.
   template <class T>
   void resizable(const std::string& name, std::vector<T>& list) {
-    static_assert(detail::is_its_bytes<T> && !std::is_same_v<T, bool>);
-    if (mode_ == Mode::comparing) {
-      (void)expected(name, sizeof(T));
-      ++next_;
-      return;
+    static_assert(!std::is_same_v<T, bool> && !std::is_empty_v<T>);
+    if (mode_ != Mode::taking) {
+      const Section& section = expected(name, layout<T>(), detail::packed_size<T>());
+      if (mode_ == Mode::comparing) {
+        ++next_;
+        return;
+      }
+      list.resize(static_cast<std::size_t>(section.count));
     }
-    if (mode_ == Mode::giving) list.resize(static_cast<std::size_t>(expected(name, sizeof(T)).count));
-    exchange(name, list.data(), list.size(), sizeof(T));
+    exchange_list(name, list.data(), list.size());
   }
   /// What must be the same in both, or else the state is of something else.
   void check_equal(const std::string& name, std::string text) {
-    if (mode_ == Mode::taking) return exchange(name, text.data(), text.size(), 1);
-    const Section& section = expected(name, 1);
+    if (mode_ == Mode::taking) return exchange_list(name, text.data(), text.size());
+    const Section& section = expected(name, layout<char>(), 1);
     const std::string_view there(section.bytes.data(), section.bytes.size());
     if (there != text) fail("its " + name + " is \"" + shown(there) + "\", here it is \"" + shown(text) + "\"");
     ++next_;
@@ -132,10 +129,28 @@ class Archive {
     mode_ = Mode::taking;
     throw std::runtime_error(origin + " does not fit: " + what);
   }
-  const Section& expected(const std::string& name, std::size_t size) {
+  // Where two layouts part, from the member on that is not the same.
+  static std::pair<std::string, std::string> first_difference(std::string_view there, std::string_view here) {
+    const auto [a, b] = std::mismatch(there.begin(), there.end(), here.begin(), here.end());
+    const std::string_view common = there.substr(0, static_cast<std::size_t>(a - there.begin()));
+    const std::size_t begin = common.find_last_of("(,") == std::string_view::npos ? 0 : common.find_last_of("(,") + 1;
+    const auto part = [&](std::string_view text) {
+      constexpr std::size_t longest = 60;
+      text.remove_prefix(std::min(begin, text.size()));
+      if (text.starts_with(' ')) text.remove_prefix(1);
+      return shown(text.substr(0, longest)) + (text.size() > longest ? "..." : "");
+    };
+    return {part(there), part(here)};
+  }
+  const Section& expected(const std::string& name, const std::string& layout, std::size_t size) {
     if (next_ == sections.size()) fail("it lacks \"" + name + "\"");
     const Section& section = sections[next_];
     if (section.name != name) fail("it has \"" + shown(section.name) + "\" where this run has \"" + name + "\"");
+    if (section.layout != layout) {
+      const auto [there, here] = first_difference(section.layout, layout);
+      fail("its \"" + name + "\" has values of other members or types, \"" + there + "\" where this run's have \"" +
+           here + "\"");
+    }
     if (section.size != size || section.bytes.size() / size != section.count || section.bytes.size() % size != 0)
       fail("its \"" + name + "\" is of values of " + std::to_string(section.size) + " bytes, this run's of " +
            std::to_string(size));
@@ -146,11 +161,22 @@ class Archive {
   void exchange_list(const std::string& name, T* values, std::size_t count) {
     if constexpr (detail::Serializes<T>::value) {
       for (std::size_t k = 0; k < count; ++k) serialize_each(values[k]);
+    } else if constexpr (std::is_empty_v<T>) {
+      // There is nothing to keep, not even a section.
+    } else if constexpr (detail::is_gapless<T>()) {
+      exchange(name, layout<T>(), values, count, sizeof(T));
     } else {
-      static_assert(detail::is_its_bytes<T>,
-                    "stickslip: a state that owns memory cannot be kept as its bytes; give it a member void "
-                    "serialize(Archive&), see docs/checkpoints.md.");
-      exchange(name, values, count, sizeof(T));
+      static_assert(detail::lists_are_complete<T>(),
+                    "stickslip: members() of a struct that is kept leaves a member out or lists one twice; see "
+                    "docs/checkpoints.md.");
+      std::vector<char> bytes(count * detail::packed_size<T>());
+      char* to = bytes.data();
+      if (mode_ == Mode::taking)
+        for (std::size_t k = 0; k < count; ++k) detail::pack(values[k], to);
+      exchange(name, layout<T>(), bytes.data(), count, detail::packed_size<T>());
+      const char* from = bytes.data();
+      if (mode_ == Mode::giving)
+        for (std::size_t k = 0; k < count; ++k) detail::unpack(values[k], from);
     }
   }
   template <class T>
@@ -162,13 +188,13 @@ class Archive {
     for (T& value : values) serialize_each(value);
   }
 
-  void exchange(const std::string& name, void* data, std::size_t count, std::size_t size) {
+  void exchange(const std::string& name, const std::string& layout, void* data, std::size_t count, std::size_t size) {
     if (mode_ == Mode::taking) {
       const char* bytes = static_cast<const char*>(data);
-      sections.push_back({name, size, count, std::vector<char>(bytes, bytes + count * size)});
+      sections.push_back({name, layout, size, count, std::vector<char>(bytes, bytes + count * size)});
       return;
     }
-    const Section& section = expected(name, size);
+    const Section& section = expected(name, layout, size);
     if (section.count != count)
       fail("its \"" + name + "\" has " + std::to_string(section.count) + " values, this run's " +
            std::to_string(count));
@@ -197,12 +223,16 @@ std::string type_name() {
 /// A number by which to tell whether two sets of values are the same, to all likelihood (FNV-1a, 64 bits).
 class Digest {
  public:
-  /// Takes values that are their bytes and have no gaps between them: numbers, and Eigen's vectors of them.
+  /// Takes values: numbers, lists of fixed length, and structs that list their members.
   template <class T>
   void add(const T* values, std::size_t count) {
-    static_assert(detail::is_its_bytes<T>);
-    const auto* bytes = reinterpret_cast<const unsigned char*>(values);
-    for (std::size_t k = 0; k < count * sizeof(T); ++k) value_ = (value_ ^ bytes[k]) * 0x100000001b3;
+    if constexpr (detail::is_gapless<T>())
+      add_bytes(reinterpret_cast<const char*>(values), count * sizeof(T));
+    else
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::vector<char> bytes = packed(values[k]);
+        add_bytes(bytes.data(), bytes.size());
+      }
   }
   /// In sixteen hexadecimal digits.
   std::string text() const {
@@ -212,6 +242,9 @@ class Digest {
   }
 
  private:
+  void add_bytes(const char* bytes, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) value_ = (value_ ^ static_cast<unsigned char>(bytes[k])) * 0x100000001b3;
+  }
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 

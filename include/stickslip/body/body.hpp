@@ -34,8 +34,16 @@ class BodyOf {
   static constexpr Symmetry storage = storage_;
   using Matrix = SparseMatrix<storage>;
 
-  BodyOf(MeshType mesh, const Kinematics& kinematics, const Material& material)
-      : mesh_(std::move(mesh)), extent_(mesh_.extent()), kinematics_(kinematics), material_(material) {
+  /// `first_node` and `first_cell` are its numbers in the problem. Throws std::invalid_argument, naming the fault.
+  BodyOf(MeshType mesh, const Kinematics& kinematics, const Material& material, std::string name = {},
+         Index first_node = 0, Index first_cell = 0)
+      : mesh_(std::move(mesh)),
+        name_(std::move(name)),
+        first_node_(first_node),
+        first_cell_(first_cell),
+        extent_(mesh_.extent()),
+        kinematics_(kinematics),
+        material_(material) {
     if (mesh_.cells.empty()) throw std::invalid_argument("body: the mesh has no cells");
     require_sound(mesh_);
     geometry_.reserve(mesh_.cells.size());
@@ -45,6 +53,10 @@ class BodyOf {
   }
 
   const MeshType& mesh() const { return mesh_; }
+  const std::string& name() const { return name_; }
+  /// Number in the problem of the mesh's first node and cell.
+  Index first_node() const { return first_node_; }
+  Index first_cell() const { return first_cell_; }
   const Kinematics& kinematics() const { return kinematics_; }
   /// Largest reference coordinate [length].
   Real extent() const { return extent_; }
@@ -55,7 +67,7 @@ class BodyOf {
     std::array<Index, static_cast<std::size_t>(dofs)> c;
     for (std::size_t a = 0; a < static_cast<std::size_t>(Element::nodes); ++a)
       for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i)
-        c[a * dim + i] = mesh_.cells[static_cast<std::size_t>(cell)][a] * dim + static_cast<Index>(i);
+        c[a * dim + i] = (first_node_ + mesh_.cells[static_cast<std::size_t>(cell)][a]) * dim + static_cast<Index>(i);
     return c;
   }
 
@@ -88,14 +100,14 @@ class BodyOf {
     for (Index e = 0; e < mesh_.cell_count(); ++e) {
       const auto k = static_cast<std::size_t>(e);
       const FailureCause cause = evaluate_cell(k, gather(ev.u, e), ev.dt, ev.constraint_force != nullptr, ev.want);
-      if (cause != FailureCause::none) return {cause, {Location::Kind::element, e}};
+      if (cause != FailureCause::none) return {cause, {Location::Kind::element, first_cell_ + e}};
       if (ev.driven) {
         const Vec<Real, dofs> increment = gather(*ev.driven, e);
         if (contraction(increment, increment) != 0) add(result_.residual, product(result_.tangent, increment));
       }
       if (!std::isfinite(result_.residual.sum()) ||
           (ev.want != Want::residual && !std::isfinite(result_.tangent.sum())))
-        return {FailureCause::not_finite, {Location::Kind::element, e}};
+        return {FailureCause::not_finite, {Location::Kind::element, first_cell_ + e}};
       scatter(result_.residual, e, forces);
       if constexpr (condensed)
         if (ev.constraint_force) scatter(dilatations_[k].force, e, *ev.constraint_force);
@@ -125,8 +137,9 @@ class BodyOf {
 
   /// The converged memory.
   void serialize(Archive& archive) {
-    memory_.serialize(archive, "body, material memory");
-    dilatations_.serialize(archive, "body, dilatations");
+    const std::string at = name_.empty() ? "body" : "body " + name_;
+    memory_.serialize(archive, at + ", material memory");
+    dilatations_.serialize(archive, at + ", dilatations");
   }
 
   /// Geometry of the quadrature points of a cell.
@@ -175,17 +188,21 @@ class BodyOf {
   Vec<Real, dofs> gather(const Field& field, Index e) const {
     Vec<Real, dofs> local;
     const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
+    const Real* own = field.data() + first_node_ * dim;
     for (int a = 0; a < Element::nodes; ++a)
-      for (int i = 0; i < dim; ++i) local[a * dim + i] = field[cell[static_cast<std::size_t>(a)] * dim + i];
+      for (int i = 0; i < dim; ++i) local[a * dim + i] = own[cell[static_cast<std::size_t>(a)] * dim + i];
     return local;
   }
   void scatter(const Vec<Real, dofs>& local, Index e, Field& field) const {
     const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
+    Real* own = field.data() + first_node_ * dim;
     for (int a = 0; a < Element::nodes; ++a)
-      for (int i = 0; i < dim; ++i) field[cell[static_cast<std::size_t>(a)] * dim + i] += local[a * dim + i];
+      for (int i = 0; i < dim; ++i) own[cell[static_cast<std::size_t>(a)] * dim + i] += local[a * dim + i];
   }
 
   MeshType mesh_;
+  std::string name_;
+  Index first_node_, first_cell_;
   Real extent_;
   [[no_unique_address]] Kinematics kinematics_;
   Material material_;
@@ -195,10 +212,5 @@ class BodyOf {
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dofs))>> slots_;
   ElementResult<Real, dofs, Element::points, State> result_;
 };
-
-/// The body of a model; models that differ in contact, inertia or solver share it.
-template <class Model>
-using Body =
-    BodyOf<typename Model::Kinematics, typename Model::Element, typename Model::Material, matrix_storage<Model>>;
 
 }  // namespace stickslip

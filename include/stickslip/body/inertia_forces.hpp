@@ -2,52 +2,136 @@
 #pragma once
 
 #include <stickslip/base/nodal.hpp>
-#include <stickslip/body/body.hpp>
+#include <stickslip/body/bodies.hpp>
 #include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <list>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace stickslip {
 
-/// Mass, velocity and acceleration of a body, its damping, and the weights of its time scheme (theory.md, section 7).
-/// Exists only in models with inertia. Forces are of two kinds: smooth ones, of the body and of loads, which are
-/// averaged over a step and make the acceleration; and those of contact, which are impulses at its end and stay out of
-/// it (eq. 7.11, 7.12).
-template <class BodyType, class Policy, class Damping, bool with_contact>
-class InertiaForcesOf {
- public:
-  using Matrix = typename BodyType::Matrix;
-  using Element = typename BodyType::Element;
-  static constexpr int dim = BodyType::dim;
-  static constexpr int nodes = Element::nodes;
-  static constexpr bool damped = Damping::active;
-  /// Whether the matrix of the body has a weight of its own.
-  static constexpr bool weighs_body = with_contact || damped;
-  /// The nodes of contact sides: true where a node is one.
-  using ContactNodes = std::vector<bool>;
+namespace detail {
+template <template <class> class T, class Model>
+struct Lazy {
+  using type = T<Model>;
+};
+template <class T>
+struct Constant {
+  using type = T;
+};
+}  // namespace detail
 
-  InertiaForcesOf(const BodyType& body, const Policy& policy, const Damping& damping, const ContactNodes& touches)
-      : body_(body), policy_(policy), damping_(damping) {
-    const auto rule = Element::Cell::quadrature();
+/// The masses of a body's elements, between nodes: the same for every component.
+template <class Body>
+class ElementMasses {
+ public:
+  static constexpr int dim = Body::dim;
+  static constexpr int nodes = Body::Element::nodes;
+
+  ElementMasses(const Body& body, Real density, bool lumped) : body_(body) {
+    const auto rule = Body::Element::Cell::quadrature();
     mass_.reserve(body.mesh().cells.size());
     for (Index e = 0; e < body.mesh().cell_count(); ++e) {
       Mat<Real, nodes> m = Mat<Real, nodes>::Zero();
       for (std::size_t p = 0; p < rule.size(); ++p) {
-        const Vec<Real, nodes> N = Element::Cell::shape(rule[p].xi);
-        add(m, product_transposed(N, N), policy.density * body.geometry(e)[p].weight);
+        const Vec<Real, nodes> N = Body::Element::Cell::shape(rule[p].xi);
+        add(m, product_transposed(N, N), density * body.geometry(e)[p].weight);
       }
-      if (policy.lumped)
+      if (lumped)
         for (int a = 0; a < nodes; ++a)
           for (int b = 0; b < nodes; ++b)
             if (a != b) m(a, a) += std::exchange(m(a, b), 0.0);
-      if constexpr (with_contact) release(m, e, touches);
       mass_.push_back(m);
     }
-    const Index components = body.mesh().node_count() * dim;
+  }
+  /// Lumps the rows of contact nodes (eq. 7.10): an impulse at one stays there. Adds to the nodes' own masses.
+  void lump(const std::vector<bool>& touches, Field& contact_mass) {
+    for (Index e = 0; e < body_.mesh().cell_count(); ++e) {
+      Mat<Real, nodes>& m = mass_[static_cast<std::size_t>(e)];
+      const auto touching = [&](int a) { return touches[static_cast<std::size_t>(node(e, a))]; };
+      for (int a = 0; a < nodes; ++a) {
+        if (!touching(a)) continue;
+        for (int b = 0; b < nodes; ++b)
+          if (a != b) {
+            m(a, a) += std::exchange(m(a, b), 0.0);
+            m(b, b) += std::exchange(m(b, a), 0.0);
+          }
+      }
+      for (int a = 0; a < nodes; ++a)
+        if (touching(a)) contact_mass[node(e, a)] += m(a, a);
+    }
+  }
+  /// Adds them to a matrix in the pattern of the system's.
+  template <class Matrix>
+  void add_to(Matrix& matrix) const {
+    Mat<Real, nodes * dim> block;
+    for (Index e = 0; e < body_.mesh().cell_count(); ++e) {
+      block.setZero();
+      for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < nodes; ++b)
+          for (int i = 0; i < dim; ++i) block(a * dim + i, b * dim + i) = mass_[static_cast<std::size_t>(e)](a, b);
+      matrix.add(body_.slots(e), block);
+    }
+  }
+  /// target += M field.
+  void add_product(const Field& field, Field& target) const {
+    for (Index e = 0; e < body_.mesh().cell_count(); ++e) {
+      const Mat<Real, nodes>& m = mass_[static_cast<std::size_t>(e)];
+      for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < nodes; ++b)
+          for (int i = 0; i < dim; ++i) target[node(e, a) * dim + i] += m(a, b) * field[node(e, b) * dim + i];
+    }
+  }
+
+ private:
+  Index node(Index e, int a) const {
+    return body_.first_node() + body_.mesh().cells[static_cast<std::size_t>(e)][static_cast<std::size_t>(a)];
+  }
+  const Body& body_;
+  std::vector<Mat<Real, nodes>> mass_;
+};
+
+namespace detail {
+template <class Model, class List>
+struct MassLists;
+template <class Model, class... Types>
+struct MassLists<Model, BodyTypes<Types...>> {
+  using type = std::tuple<std::list<ElementMasses<BodyOfType<Model, Types>>>...>;
+};
+}  // namespace detail
+
+/// Mass, velocity and acceleration of the bodies, their damping, and the weights of its time scheme (theory.md, section
+/// 7). Exists only in models with inertia. Forces are of two kinds: smooth ones, of the body and of loads, which are
+/// averaged over a step and make the acceleration; and those of contact, which are impulses at its end and stay out of
+/// it (eq. 7.11, 7.12).
+template <class Model>
+class InertiaTerm {
+ public:
+  using Matrix = typename Bodies<Model>::Matrix;
+  using Policy = typename Model::TimeIntegration;
+  using Damping = DampingOf<Model>;
+  static constexpr int dim = Model::Kinematics::dim;
+  static constexpr bool with_contact = has_contact<Model>, damped = Damping::active;
+  /// Whether the matrix of the bodies has a weight of its own.
+  static constexpr bool weighs_body = with_contact || damped;
+
+  /// `touches` says of every node whether it is one of a contact side.
+  InertiaTerm(const Bodies<Model>& bodies, const Policy& policy, const Damping& damping,
+              const std::vector<bool>& touches)
+      : policy_(policy), damping_(damping) {
+    if constexpr (with_contact) contact_mass_.setZero(bodies.node_count());
+    std::size_t k = 0;
+    bodies.for_each([&](const auto& body) {
+      auto& list = std::get<std::list<ElementMasses<std::remove_cvref_t<decltype(body)>>>>(masses_);
+      list.emplace_back(body, bodies.density(k++), policy.lumped);
+      if constexpr (with_contact) list.back().lump(touches, contact_mass_);
+    });
+    const Index components = bodies.node_count() * dim;
     for (Field* f : {&velocity_, &acceleration_, &start_, &old_forces_, &force_, &trial_acceleration_, &work_})
       f->setZero(components);
     if constexpr (damped) old_internal_.setZero(components);
@@ -57,14 +141,7 @@ class InertiaForcesOf {
   void connect(const Matrix& matrix) {
     matrix_ = matrix;
     matrix_.set_zero();
-    Mat<Real, nodes * dim> block;
-    for (Index e = 0; e < body_.mesh().cell_count(); ++e) {
-      block.setZero();
-      for (int a = 0; a < nodes; ++a)
-        for (int b = 0; b < nodes; ++b)
-          for (int i = 0; i < dim; ++i) block(a * dim + i, b * dim + i) = mass_[static_cast<std::size_t>(e)](a, b);
-      matrix_.add(body_.slots(e), block);
-    }
+    for_each_mass([&](const auto& masses) { masses.add_to(matrix_); });
   }
 
   /// The step of size dt that starts from the converged displacements u.
@@ -143,15 +220,7 @@ class InertiaForcesOf {
 
   /// target += M field.
   void add_product(const Field& field, Field& target) const {
-    for (Index e = 0; e < body_.mesh().cell_count(); ++e) {
-      const auto& cell = body_.mesh().cells[static_cast<std::size_t>(e)];
-      const Mat<Real, nodes>& m = mass_[static_cast<std::size_t>(e)];
-      for (int a = 0; a < nodes; ++a)
-        for (int b = 0; b < nodes; ++b)
-          for (int i = 0; i < dim; ++i)
-            target[cell[static_cast<std::size_t>(a)] * dim + i] +=
-                m(a, b) * field[cell[static_cast<std::size_t>(b)] * dim + i];
-    }
+    for_each_mass([&](const auto& masses) { masses.add_product(field, target); });
   }
 
   /// Local error of the last converged step by component: (beta - 1/6) dt^2 (a_{n+1} - a_n) (eq. 7.8), its largest norm
@@ -163,7 +232,7 @@ class InertiaForcesOf {
       for_each_impulse(dofs, contact,
                        [&](Index component, Real c) { work_[component] += c / (2 * policy_.scheme.beta); });
     Real largest = 0;
-    for (Index n = 0; n < body_.mesh().node_count(); ++n) largest = std::max(largest, at_node<dim>(work_, n).norm());
+    for (Index n = 0; n < work_.size() / dim; ++n) largest = std::max(largest, at_node<dim>(work_, n).norm());
     return std::abs(policy_.scheme.beta - Real(1) / 6) * dt_ * dt_ * largest;
   }
 
@@ -194,23 +263,14 @@ class InertiaForcesOf {
   Real dissipated() const requires damped { return dissipated_; }
 
  private:
-  // Lumps the rows of contact nodes (eq. 7.10): an impulse at one stays there. Adds to the nodes' own masses.
-  void release(Mat<Real, nodes>& m, Index e, const ContactNodes& touches) requires with_contact {
-    if (contact_mass_.size() == 0) contact_mass_.setZero(body_.mesh().node_count());
-    const auto& cell = body_.mesh().cells[static_cast<std::size_t>(e)];
-    const auto touching = [&](int a) { return touches[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])]; };
-    for (int a = 0; a < nodes; ++a) {
-      if (!touching(a)) continue;
-      for (int b = 0; b < nodes; ++b)
-        if (a != b) {
-          m(a, a) += std::exchange(m(a, b), 0.0);
-          m(b, b) += std::exchange(m(b, a), 0.0);
-        }
-    }
-    for (int a = 0; a < nodes; ++a)
-      if (touching(a)) contact_mass_[cell[static_cast<std::size_t>(a)]] += m(a, a);
+  template <class Visit>
+  void for_each_mass(Visit&& visit) const {
+    std::apply([&](const auto&... lists) { (visit_list(lists, visit), ...); }, masses_);
   }
-
+  template <class List, class Visit>
+  static void visit_list(const List& list, Visit& visit) {
+    for (const auto& masses : list) visit(masses);
+  }
   // Calls visit(component, c) for the free components of contact nodes, c = force / mass of the node.
   template <class Visit>
   void for_each_impulse(const IndexMap& dofs, const Field& contact, Visit&& visit) const requires with_contact {
@@ -220,13 +280,13 @@ class InertiaForcesOf {
           if (contact[k] != 0 && dofs.equation(k) != IndexMap::constrained) visit(k, contact[k] / contact_mass_[n]);
   }
 
-  const BodyType& body_;
+  typename detail::MassLists<Model, BodyTypesOf<Model>>::type masses_;
   Policy policy_;
   [[no_unique_address]] Damping damping_;
-  std::vector<Mat<Real, nodes>> mass_;  // of an element, between nodes: the same for every component
   Matrix matrix_;
   Field velocity_, acceleration_, start_, old_forces_, force_, trial_acceleration_, work_;
-  [[no_unique_address]] StoredIf<with_contact, Field, BodyType> contact_mass_;  // by node: m_c, 0 off contact sides
+  [[no_unique_address]] StoredIf<with_contact, Field, Bodies<Model>>
+      contact_mass_;  // by node: m_c, 0 off contact sides
   [[no_unique_address]] StoredIf<damped, Field, Policy> old_internal_;
   [[no_unique_address]] StoredIf<damped, Real, Matrix> dissipated_{};
   Real dt_ = 0;
@@ -239,11 +299,9 @@ struct NoInertiaForces {
   static constexpr Real contact_share() { return 1; }
 };
 
-/// The inertia of a model; models that differ in friction or solver share it.
+/// The inertia of a model.
 template <class Model>
-using InertiaForces = std::conditional_t<
-    has_inertia<Model>,
-    InertiaForcesOf<Body<Model>, typename Model::TimeIntegration, DampingOf<Model>, has_contact<Model>>,
-    NoInertiaForces>;
+using InertiaForces = typename std::conditional_t<has_inertia<Model>, detail::Lazy<InertiaTerm, Model>,
+                                                  detail::Constant<NoInertiaForces>>::type;
 
 }  // namespace stickslip

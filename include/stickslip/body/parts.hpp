@@ -10,23 +10,25 @@
 
 namespace stickslip {
 
-/// The connected parts of a mesh: nodes belong to one part where a chain of cells joins them. Parts are numbered by
+/// The connected parts of the bodies: nodes belong to one part where a chain of cells joins them. Parts are numbered by
 /// their first nodes.
 class Parts {
  public:
-  template <class MeshType>
-  explicit Parts(const MeshType& mesh) : part_(mesh.nodes.size()) {
+  template <class BodiesType>
+  explicit Parts(const BodiesType& bodies) : part_(static_cast<std::size_t>(bodies.node_count())) {
     // Trees of nodes, each on its part's least one.
     std::iota(part_.begin(), part_.end(), 0);
     const auto root = [&](Index n) {
       while (at(n) != n) n = part_[static_cast<std::size_t>(n)] = at(at(n));
       return n;
     };
-    for (const auto& cell : mesh.cells)
-      for (const Index n : cell) {
-        const Index a = root(cell[0]), b = root(n);
-        part_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-      }
+    bodies.for_each([&](const auto& body) {
+      for (const auto& cell : body.mesh().cells)
+        for (const Index n : cell) {
+          const Index a = root(body.first_node() + cell[0]), b = root(body.first_node() + n);
+          part_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        }
+    });
     for (Index n = 0; n < static_cast<Index>(part_.size()); ++n) {
       Index& part = part_[static_cast<std::size_t>(n)];
       part = part == n ? count_++ : at(part);  // that of an earlier node, numbered already
@@ -37,15 +39,27 @@ class Parts {
   /// The part of a node.
   Index at(Index node) const { return part_[static_cast<std::size_t>(node)]; }
 
-  /// What a part is called: by a side that lies in it, or else by a node. Empty where there is but one.
-  template <class MeshType>
-  std::string name(Index part, const MeshType& mesh) const {
+  /// The name of a part: of the body that it is, or else of a side that lies in it, or else of a node. Empty where
+  /// there is but one.
+  template <class BodiesType>
+  std::string name(Index part, const BodiesType& bodies) const {
     if (count_ == 1) return "";
-    for (const auto& [name, side] : mesh.sides) {
-      const auto inside = [&](Index n) { return at(n) == part; };
-      if (!side.nodes.empty() && std::all_of(side.nodes.begin(), side.nodes.end(), inside))
-        return "the part of the mesh with side \"" + name + "\"";
-    }
+    std::string name;
+    bodies.for_each([&](const auto& body) {
+      const auto inside = [&](Index n) { return at(body.first_node() + n) == part; };
+      std::vector<Index> all(body.mesh().nodes.size());
+      std::iota(all.begin(), all.end(), 0);
+      if (!name.empty()) return;
+      if (!body.name().empty() && std::all_of(all.begin(), all.end(), inside) &&
+          std::count(part_.begin(), part_.end(), part) == std::ptrdiff_t(all.size())) {
+        name = "body \"" + body.name() + "\"";
+        return;
+      }
+      for (const auto& [side, of] : body.mesh().sides)
+        if (name.empty() && !of.nodes.empty() && std::all_of(of.nodes.begin(), of.nodes.end(), inside))
+          name = "the part of the mesh with side \"" + (body.name().empty() ? "" : body.name() + ".") + side + "\"";
+    });
+    if (!name.empty()) return name;
     const auto first = std::find(part_.begin(), part_.end(), part);
     return "the part of the mesh with node " + std::to_string(first - part_.begin());
   }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/body/body.hpp>
+#include <stickslip/body/bodies.hpp>
 #include <stickslip/tensor/products.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <list>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace stickslip {
@@ -46,31 +49,31 @@ class StressRecovery {
     });
     for (std::size_t n = 0; n < nodal_.size(); ++n)
       if (share_[n] > 0) nodal_[n].v = scaled(nodal_[n].v, 1 / share_[n]);
-    Real errors = 0, whole = 0;
+    errors_ = whole_ = 0;
     for (std::size_t e = 0; e < stress_.size(); ++e) {
       error_[e] = 0;
       Real volume = 0;
       for (std::size_t p = 0; p < points; ++p) {
         const Real weight = body.geometry(static_cast<Index>(e))[p].weight;
         Stress off = stress_[e][p];
-        whole += weight * contraction(off.v, off.v);
+        whole_ += weight * contraction(off.v, off.v);
         for (std::size_t a = 0; a < nodes; ++a)
           add(off.v, nodal_[static_cast<std::size_t>(body.mesh().cells[e][a])].v, -shape_[p][static_cast<int>(a)]);
         error_[e] += weight * contraction(off.v, off.v);
         volume += weight;
       }
-      errors += error_[e];
+      errors_ += error_[e];
       error_[e] = std::sqrt(error_[e] / volume);
     }
-    relative_ = whole > 0 ? std::sqrt(errors / whole) : 0;
   }
 
   /// Cauchy stress of a quadrature point, as its element has it [stress].
   const Stress& stress(Index cell, int point) const {
     return stress_[static_cast<std::size_t>(cell)][static_cast<std::size_t>(point)];
   }
-  /// Norm of the estimated error over that of the stress, over the body [-].
-  Real relative() const { return relative_; }
+  /// Squares of the norms of the estimated error and of the stress, over the body [stress^2 volume].
+  Real error_squared() const { return errors_; }
+  Real norm_squared() const { return whole_; }
   /// Root mean square of the estimated error by cell [stress].
   const std::vector<Real>& cells() const { return error_; }
 
@@ -81,7 +84,45 @@ class StressRecovery {
   std::vector<Stress> nodal_;
   std::vector<Real> share_, error_;
   std::array<Vec<Real, Body::Element::nodes>, points> shape_;
-  Real relative_ = 0;
+  Real errors_ = 0, whole_ = 0;
+};
+
+/// The recovered stresses of all bodies of a model.
+template <class Model>
+class StressRecoveries {
+ public:
+  explicit StressRecoveries(const Bodies<Model>& bodies) {
+    bodies.for_each([&](const auto& body) { of(body).emplace_back(body); });
+  }
+  void update(const Bodies<Model>& bodies, const Field& u) {
+    errors_ = whole_ = 0;
+    std::apply([](auto&... next) { ((next.second = next.first.begin()), ...); }, recoveries_);
+    bodies.for_each([&](const auto& body) {
+      auto& next = std::get<ListOf<std::remove_cvref_t<decltype(body)>>>(recoveries_).second;
+      next->update(body, u);
+      errors_ += next->error_squared();
+      whole_ += next->norm_squared();
+      ++next;
+    });
+  }
+  /// Norm of the estimated error over that of the stress, over the bodies [-].
+  Real relative() const { return whole_ > 0 ? std::sqrt(errors_ / whole_) : 0; }
+
+ private:
+  template <class Body>
+  using ListOf = std::pair<std::list<StressRecovery<Body>>, typename std::list<StressRecovery<Body>>::iterator>;
+  template <class List>
+  struct Lists;
+  template <class... Types>
+  struct Lists<BodyTypes<Types...>> {
+    using type = std::tuple<ListOf<detail::BodyOfType<Model, Types>>...>;
+  };
+  template <class Body>
+  auto& of(const Body&) {
+    return std::get<ListOf<Body>>(recoveries_).first;
+  }
+  typename Lists<BodyTypesOf<Model>>::type recoveries_;  // with the next to be updated
+  Real errors_ = 0, whole_ = 0;
 };
 
 }  // namespace stickslip

@@ -184,10 +184,9 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
   using Nodes = detail::ContactNodesOf<Model, Friction>;
   using Nodes::name_, Nodes::nodes_, Nodes::states_, Nodes::trial_summary_, Nodes::measures_;
 
-  template <class MeshType>
-  ContactHistory(const Contact<Model, Friction>& contact, const MeshType& mesh,
-                 const typename Model::Kinematics& kinematics)
-      : Nodes(contact, mesh, kinematics),
+  template <class BodiesType>
+  ContactHistory(const Contact<Model, Friction>& contact, const BodiesType& bodies)
+      : Nodes(contact, bodies),
         friction_(contact.friction),
         enforcement_(contact.enforcement),
         pressures_(nodes_.size()),

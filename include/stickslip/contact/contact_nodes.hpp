@@ -108,13 +108,15 @@ class ContactNodes : public ContactRecord<dim> {
   using Record::name_, Record::motion_, Record::nodes_, Record::states_, Record::trial_summary_;
 
   // Throws std::invalid_argument, naming the contact, for parameters that cannot be.
-  template <class Description, class MeshType, class Kinematics>
-  ContactNodes(const Description& contact, const MeshType& mesh, const Kinematics& kinematics)
-      : Record(contact.name, contact.side, contact.motion, mesh.side(contact.side).nodes),
+  template <class Description, class BodiesType>
+  ContactNodes(const Description& contact, const BodiesType& bodies)
+      : Record(contact.name, contact.side, contact.motion, bodies.side_nodes(contact.side)),
         tool_(contact.tool),
-        X_(mesh.nodes),
+        X_(bodies.positions()),
         start_depth_(contact.start_depth),
-        measures_(mesh, kinematics, contact.side, contact.enforcement.per) {
+        measures_(bodies.with_side(contact.side, [&](const auto& body, const std::string& side) {
+          return NodeMeasures<dim, takes_area>(body.mesh(), body.kinematics(), side, contact.enforcement.per);
+        })) {
     if (tool_.empty()) this->refuse("the tool has no surface");
     if (!(start_depth_ >= 0)) this->refuse("start_depth must not be negative");
   }

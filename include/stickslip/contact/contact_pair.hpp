@@ -29,10 +29,9 @@ class ContactPair : public ContactHistory<Model, Friction_> {
   using Matrix = SparseMatrix<matrix_storage<Model>>;
 
   /// Throws std::invalid_argument, naming the contact, for parameters that cannot be.
-  template <class MeshType>
-  ContactPair(const Contact<Model, Friction>& contact, const MeshType& mesh,
-              const typename Model::Kinematics& kinematics)
-      : Base(contact, mesh, kinematics), gap_roundoff_(nodes_.size(), 0.0), body_stiffness_(gap_roundoff_) {}
+  template <class BodiesType>
+  ContactPair(const Contact<Model, Friction>& contact, const BodiesType& bodies)
+      : Base(contact, bodies), gap_roundoff_(nodes_.size(), 0.0), body_stiffness_(gap_roundoff_) {}
   ContactPair(const ContactPair&) = delete;
   ContactPair& operator=(const ContactPair&) = delete;
 

@@ -42,6 +42,21 @@ struct ContactSummary {
     penalty_work += other.penalty_work;
     turn = std::max(turn, other.turn);
   }
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("touching", self.touching);
+    visit("sliding", self.sliding);
+    visit("max_penetration", self.max_penetration);
+    visit("max_slip", self.max_slip);
+    visit("friction_capacity", self.friction_capacity);
+    visit("lag", self.lag);
+    visit("lag_oscillation", self.lag_oscillation);
+    visit("dissipated", self.dissipated);
+    visit("lag_work", self.lag_work);
+    visit("penalty_work", self.penalty_work);
+    visit("turn", self.turn);
+  }
 };
 
 /// A contact node at a converged state.
@@ -53,6 +68,16 @@ struct ContactNodeState {
   Real pressure = 0;                              ///< part of the force along the tool's normal [force]
   bool touching = false;
   bool sliding = false;
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("force", self.force);
+    visit("gap", self.gap);
+    visit("accumulated_slip", self.accumulated_slip);
+    visit("pressure", self.pressure);
+    visit("touching", self.touching);
+    visit("sliding", self.sliding);
+  }
 };
 
 /// A side of the body in contact with one tool, whatever the law: its nodes and what happened to them.

@@ -24,6 +24,14 @@ struct FrictionMemory {
   Vec<S, places> surface_coordinate = Vec<S, places>::Zero();  ///< of the closest point, in the tool's frame [length]
   S accumulated_slip = S(0);                                   ///< slid distance so far [length]
   [[no_unique_address]] Pressure pressure{};
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("traction", self.traction);
+    visit("surface_coordinate", self.surface_coordinate);
+    visit("accumulated_slip", self.accumulated_slip);
+    visit("pressure", self.pressure);
+  }
 };
 
 namespace detail {
@@ -42,6 +50,12 @@ template <class S, int dim, class Enforcement, class Friction>
 struct NodeMemory {
   [[no_unique_address]] typename detail::FrictionMemoryOf<S, dim, Friction>::type friction{};
   [[no_unique_address]] typename Enforcement::template Memory<S> enforcement{};
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("friction", self.friction);
+    visit("enforcement", self.enforcement);
+  }
 };
 
 /// What a contact node contributes.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/stored_if.hpp>
 #include <stickslip/dofs/sparse_matrix.hpp>
 #include <stickslip/mesh/facet.hpp>
 #include <stickslip/policy/enforcement.hpp>

@@ -24,6 +24,11 @@ struct AugmentedLagrangian {
   template <class S>
   struct Memory {
     S pressure = S(0);  ///< multiplier [force]
+
+    template <class Self, class Visit>
+    static constexpr void members(Self& self, Visit&& visit) {
+      visit("pressure", self.pressure);
+    }
   };
 
   /// t_N = -pressure + normal g (theory.md, eq. 4.16).

@@ -36,6 +36,11 @@ struct LastConverged {
   template <class S>
   struct Memory {
     S pressure = S(0);  ///< [force]
+
+    template <class Self, class Visit>
+    static constexpr void members(Self& self, Visit&& visit) {
+      visit("pressure", self.pressure);
+    }
   };
   template <class S>
   static S pressure(const S&, const Memory<S>& memory, Real) {
@@ -63,6 +68,12 @@ struct Extrapolated {
   struct Memory {
     S pressure = S(0);  ///< [force]
     S trend = S(0);     ///< (p_n - p_{n-1}) / dt_n [force / time]
+
+    template <class Self, class Visit>
+    static constexpr void members(Self& self, Visit&& visit) {
+      visit("pressure", self.pressure);
+      visit("trend", self.trend);
+    }
   };
   template <class S>
   static S pressure(const S&, const Memory<S>& memory, Real dt) {

@@ -21,7 +21,7 @@ namespace stickslip::io {
 
 /// Version of the format. It increases whenever the layout of the file, the sections of a march or their meaning
 /// change; other versions are refused.
-inline constexpr std::uint32_t checkpoint_version = 3;
+inline constexpr std::uint32_t checkpoint_version = 4;
 
 namespace detail {
 
@@ -63,8 +63,9 @@ inline std::string pack(const std::vector<Section>& sections) {
   std::string bytes;
   put(bytes, sections.size());
   for (const Section& s : sections) {
-    for (const std::uint64_t value : {std::uint64_t(s.name.size()), s.size, s.count}) put(bytes, value);
-    bytes.append(s.name).append(s.bytes.data(), s.bytes.size());
+    for (const std::uint64_t value : {std::uint64_t(s.name.size()), std::uint64_t(s.layout.size()), s.size, s.count})
+      put(bytes, value);
+    bytes.append(s.name).append(s.layout).append(s.bytes.data(), s.bytes.size());
   }
   return bytes;
 }
@@ -77,13 +78,15 @@ class Unpacking {
   // False if the bytes are not an archive.
   bool read(std::vector<Section>& sections) {
     std::uint64_t count = 0;
-    if (!take(count) || count > bytes_.size() / (3 * sizeof(count))) return false;
+    if (!take(count) || count > bytes_.size() / (4 * sizeof(count))) return false;
     sections.reserve(static_cast<std::size_t>(count));
     for (std::uint64_t k = 0; k < count; ++k) {
-      std::uint64_t name = 0;
+      std::uint64_t name = 0, layout = 0;
       Section s;
-      if (!take(name) || !take(s.size) || !take(s.count) || name > bytes_.size()) return false;
+      if (!take(name) || !take(layout) || !take(s.size) || !take(s.count) || name > bytes_.size()) return false;
       s.name = next(static_cast<std::size_t>(name));
+      if (layout > bytes_.size()) return false;
+      s.layout = next(static_cast<std::size_t>(layout));
       if (s.size == 0 ? s.count != 0 : s.count > bytes_.size() / s.size) return false;
       const std::string_view values = next(static_cast<std::size_t>(s.size * s.count));
       s.bytes.assign(values.begin(), values.end());

@@ -326,6 +326,7 @@ class GmshMesh {
     add_nodes();
     add_cells();
     connect();
+    add_blocks();
     add_sides();
     return std::move(mesh_);
   }
@@ -422,6 +423,7 @@ class GmshMesh {
 
   void add_cells() {
     const auto rule = Traits::Cell::quadrature();
+    cell_.assign(file_.elements.size(), unused);
     for (std::size_t k = 0; k < file_.elements.size(); ++k) {
       const Element& e = file_.elements[k];
       if (e.type->dim != dim || repeated_[k]) continue;
@@ -451,6 +453,7 @@ class GmshMesh {
         text_.fail(e.line, std::string("the cell is folded, flat or beyond all size: the Jacobian of ") +
                                cell_type().one + " must have one sign at all quadrature points");
       }
+      cell_[k] = mesh_.cell_count();
       mesh_.cells.push_back(cell);
       for (const auto& local : Traits::facets) {
         Facet walk{};
@@ -481,6 +484,25 @@ class GmshMesh {
     const auto found = file_.names.find(group);
     if (found != file_.names.end() && !found->second.empty()) return found->second;
     return Traits::nameless[group.first] + std::to_string(group.second);
+  }
+
+  // Named groups of cells are blocks. A cell that format 2.2 repeats is the one before it with its nodes.
+  void add_blocks() {
+    std::map<std::array<GmshFile::Tag, 8>, Index> number;
+    for (std::size_t k = 0; k < file_.elements.size(); ++k) {
+      const Element& e = file_.elements[k];
+      if (e.type->dim != dim) continue;
+      auto key = e.nodes;
+      std::sort(key.begin(), key.end());
+      const Index cell = cell_[k] == unused ? number.at(key) : number[key] = cell_[k];
+      const auto groups = file_.groups.find({dim, e.entity});
+      if (groups == file_.groups.end()) continue;
+      for (const GmshFile::Tag group : groups->second)
+        if (const auto name = file_.names.find({dim, group}); name != file_.names.end() && !name->second.empty()) {
+          std::vector<Index>& block = mesh_.blocks[name->second];
+          if (block.empty() || block.back() != cell) block.push_back(cell);
+        }
+    }
   }
 
   void add_sides() {
@@ -550,6 +572,7 @@ class GmshMesh {
   std::vector<std::pair<GmshFile::Tag, std::size_t>> places_;  // index in the file, sorted by tag
   std::vector<Index> number_;                                  // node of the mesh, by index in the file
   std::vector<CellFacet> facets_;
+  std::vector<Index> cell_;     // of the mesh, by element of the file
   std::vector<bool> repeated_;  // for each element of the file: an earlier one is the same cell
 };
 

@@ -117,58 +117,80 @@ inline bool is_xml_text(std::string_view text) {
 
 namespace detail {
 
-// Writes a body at the displacements u [length]; `contacts` is empty, or all of them.
-template <class Body>
-void write_vtu(const std::filesystem::path& path, const Body& body, const Field& u, bool with_contact,
-               const std::vector<const ContactRecord<Body::dim>*>& contacts) {
-  using TensorPattern = typename Body::TensorPattern;
+// Means over the points of the cells of all bodies, in their order.
+struct CellMeans {
+  std::vector<Real> stress, mises, pressure, plastic_strain, error, body;
+  bool plastic = false;
+
+  template <class Body>
+  void add(const Body& body_, const Field& u, Index number) {
+    using TensorPattern = typename Body::TensorPattern;
+    const std::size_t cells = body_.mesh().cells.size(), first = mises.size();
+    for (std::vector<Real>* list : {&mises, &pressure}) list->resize(first + cells, 0.0);
+    stress.resize(6 * (first + cells), 0.0);
+    // Not a number where the material has no plastic strain.
+    constexpr bool flows = requires(typename Body::State s) {
+      s.plastic_strain;
+    };
+    plastic_strain.resize(first + cells, flows ? 0.0 : std::numeric_limits<Real>::quiet_NaN());
+    plastic = plastic || flows;
+    body.resize(first + cells, Real(number));
+    StressRecovery<Body> recovery(body_);
+    recovery.update(body_, u);
+    std::vector<Real> volume(cells, 0.0);
+    body_.visit_points(u, [&](Index cell, int point, const auto&, const auto& state, Real weight) {
+      const std::size_t e = first + static_cast<std::size_t>(cell);
+      const Tensor<Real, TensorPattern>& cauchy = recovery.stress(cell, point);
+      static constexpr std::array<std::pair<int, int>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+      for (std::size_t k = 0; k < order.size(); ++k)
+        if (TensorPattern::couples(order[k].first, order[k].second))
+          stress[6 * e + k] += weight * cauchy(order[k].first, order[k].second);
+      mises[e] += weight * von_mises(cauchy);
+      pressure[e] -= weight * trace(cauchy) / 3;
+      if constexpr (flows) plastic_strain[e] += weight * state.plastic_strain;
+      volume[static_cast<std::size_t>(cell)] += weight;
+    });
+    for (std::size_t k = 0; k < cells; ++k) {
+      const std::size_t e = first + k;
+      for (std::size_t i = 0; i < 6; ++i) stress[6 * e + i] /= volume[k];
+      mises[e] /= volume[k];
+      pressure[e] /= volume[k];
+      if constexpr (flows) plastic_strain[e] /= volume[k];
+    }
+    error.insert(error.end(), recovery.cells().begin(), recovery.cells().end());
+  }
+};
+
+// Writes bodies at the displacements u [length]; `contacts` is empty, or all of them.
+template <class BodiesType>
+void write_vtu(const std::filesystem::path& path, const BodiesType& bodies, const Field& u, bool with_contact,
+               const std::vector<const ContactRecord<BodiesType::dim>*>& contacts) {
   static_assert(std::endian::native == std::endian::little, "the file says that its numbers are little-endian");
-  constexpr int dim = Body::dim;
-  constexpr bool plastic = requires(typename Body::State s) {
-    s.plastic_strain;
-  };
-  const auto& mesh = body.mesh();
-  const auto nodes = mesh.nodes.size(), cells = mesh.cells.size();
+  constexpr int dim = BodiesType::dim;
+  const auto& positions = bodies.positions();
+  const std::size_t nodes = positions.size(), cells = static_cast<std::size_t>(bodies.cell_count());
 
   std::vector<Real> points(3 * nodes, 0.0), displacement(3 * nodes, 0.0);
   for (std::size_t n = 0; n < nodes; ++n)
     for (std::size_t i = 0; i < dim; ++i) {
-      points[3 * n + i] = mesh.nodes[n][static_cast<int>(i)];
+      points[3 * n + i] = positions[n][static_cast<int>(i)];
       displacement[3 * n + i] = u[static_cast<Index>(n) * dim + static_cast<int>(i)];
     }
 
   std::vector<std::int64_t> connectivity, offsets;
-  for (const auto& cell : mesh.cells) {
-    for (const Index n : cell) connectivity.push_back(n);
-    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-  }
-  constexpr int nodes_per_cell = Body::MeshType::nodes_per_cell;
-  static_assert((dim == 2 && nodes_per_cell == 4) || (dim == 3 && nodes_per_cell == 8),
-                "the cell types below are VTK's quadrilateral and hexahedron");
-  const std::vector<std::uint8_t> types(cells, dim == 2 ? 9 : 12);
-
-  std::vector<Real> stress(6 * cells, 0.0), mises(cells, 0.0), pressure(cells, 0.0),
-      plastic_strain(plastic ? cells : 0, 0.0), volume(cells, 0.0);
-  StressRecovery<Body> recovery(body);
-  recovery.update(body, u);
-  body.visit_points(u, [&](Index cell, int point, const auto&, const auto& state, Real weight) {
-    const auto e = static_cast<std::size_t>(cell);
-    const Tensor<Real, TensorPattern>& cauchy = recovery.stress(cell, point);
-    static constexpr std::array<std::pair<int, int>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
-    for (std::size_t k = 0; k < order.size(); ++k)
-      if (TensorPattern::couples(order[k].first, order[k].second))
-        stress[6 * e + k] += weight * cauchy(order[k].first, order[k].second);
-    mises[e] += weight * von_mises(cauchy);
-    pressure[e] -= weight * trace(cauchy) / 3;
-    if constexpr (plastic) plastic_strain[e] += weight * state.plastic_strain;
-    volume[e] += weight;
+  CellMeans means;
+  Index number = 0;
+  bodies.for_each([&](const auto& body) {
+    constexpr int nodes_per_cell = std::remove_cvref_t<decltype(body)>::MeshType::nodes_per_cell;
+    static_assert((dim == 2 && nodes_per_cell == 4) || (dim == 3 && nodes_per_cell == 8),
+                  "the cell types below are VTK's quadrilateral and hexahedron");
+    for (const auto& cell : body.mesh().cells) {
+      for (const Index n : cell) connectivity.push_back(body.first_node() + n);
+      offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    }
+    means.add(body, u, number++);
   });
-  for (std::size_t e = 0; e < cells; ++e) {
-    for (std::size_t k = 0; k < 6; ++k) stress[6 * e + k] /= volume[e];
-    mises[e] /= volume[e];
-    pressure[e] /= volume[e];
-    if constexpr (plastic) plastic_strain[e] /= volume[e];
-  }
+  const std::vector<std::uint8_t> types(cells, dim == 2 ? 9 : 12);
 
   NewFile file(path);
   std::ostream& out = file.stream();
@@ -186,7 +208,7 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
     std::vector<Real> force(3 * nodes, 0.0), traction(3 * nodes, 0.0), slip(nodes, 0.0),
         gap(nodes, std::numeric_limits<Real>::infinity());
     for (const ContactRecord<dim>* pair : contacts) {
-      const std::vector<Real> areas = nodal_areas(mesh, body.kinematics(), pair->side());
+      const std::vector<Real> areas = bodies.side_areas(pair->side());
       for (std::size_t k = 0; k < pair->nodes().size(); ++k) {
         const Index node = pair->nodes()[k];
         const auto n = static_cast<std::size_t>(node);
@@ -207,11 +229,12 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
     write_array(out, "Float64", "gap", 1, gap);
   }
   out << "</PointData>\n<CellData>\n";
-  write_array(out, "Float64", "cauchy_stress", 6, stress);
-  write_array(out, "Float64", "von_mises_stress", 1, mises);
-  write_array(out, "Float64", "pressure", 1, pressure);
-  if constexpr (plastic) write_array(out, "Float64", "plastic_strain", 1, plastic_strain);
-  write_array(out, "Float64", "stress_error", 1, recovery.cells());
+  write_array(out, "Float64", "cauchy_stress", 6, means.stress);
+  write_array(out, "Float64", "von_mises_stress", 1, means.mises);
+  write_array(out, "Float64", "pressure", 1, means.pressure);
+  if (means.plastic) write_array(out, "Float64", "plastic_strain", 1, means.plastic_strain);
+  write_array(out, "Float64", "stress_error", 1, means.error);
+  if (bodies.count() > 1) write_array(out, "Float64", "body", 1, means.body);
   out << "</CellData>\n</Piece></UnstructuredGrid>\n</VTKFile>\n";
   file.place();
 }
@@ -221,14 +244,15 @@ void write_vtu(const std::filesystem::path& path, const Body& body, const Field&
 /// Writes the converged state as a VTK unstructured grid: reference coordinates; at nodes displacement, contact force
 /// [force], contact traction [force / reference area], accumulated slip and gap [length] (NaN at nodes of no contact);
 /// in cells the means over the points of Cauchy stress (order xx yy zz xy yz xz), von Mises stress, pressure, the
-/// estimated error of the mesh in the stress (theory.md, eq. 6.20) and, where the material has it, plastic strain. In
+/// estimated error of the mesh in the stress (theory.md, eq. 6.20), where a material has it plastic strain (NaN in the
+/// bodies of others), and of several bodies the number of the cell's, from 0 in the order of their numbering. In
 /// axisymmetry x is the radius, y the axis and z the hoop direction. Throws std::runtime_error, naming the file and the
 /// reason, if it cannot be written; the old file is then unchanged (NewFile).
 template <class Model>
 void write_vtu(const std::filesystem::path& path, const Scene<Model>& problem) {
   std::vector<const ContactRecord<Scene<Model>::dim>*> contacts;
   if constexpr (has_contact<Model>) problem.visit_contacts([&](const auto& pair) { contacts.push_back(&pair); });
-  detail::write_vtu(path, problem.body(), problem.displacement(), has_contact<Model>, contacts);
+  detail::write_vtu(path, problem.bodies(), problem.displacement(), has_contact<Model>, contacts);
 }
 
 /// A series of states over time: `DIR/NAME_0000.vtu` and so on, with `DIR/NAME.pvd` to open in ParaView. The collection

@@ -28,6 +28,12 @@ struct FiniteJ2 {
   struct State {
     SymmetricTensor<S, TensorPattern> Cp_inverse = SymmetricTensor<S, TensorPattern>::identity();  ///< (Fp^T Fp)^-1
     S plastic_strain = S(0);                                                                       ///< accumulated, p
+
+    template <class Self, class Visit>
+    static constexpr void members(Self& self, Visit&& visit) {
+      visit("Cp_inverse", self.Cp_inverse);
+      visit("plastic_strain", self.plastic_strain);
+    }
   };
 
   template <class S, class TensorPattern>

@@ -30,6 +30,13 @@ struct HypoelasticJ2 {
     Tensor<S, TensorPattern> F_inverse = Tensor<S, TensorPattern>::identity();  ///< inverse deformation gradient [-]
     SymmetricTensor<S, TensorPattern> tau{};                                    ///< Kirchhoff stress [stress]
     S plastic_strain = S(0);                                                    ///< accumulated, p
+
+    template <class Self, class Visit>
+    static constexpr void members(Self& self, Visit&& visit) {
+      visit("F_inverse", self.F_inverse);
+      visit("tau", self.tau);
+      visit("plastic_strain", self.plastic_strain);
+    }
   };
 
   template <class S, class TensorPattern>

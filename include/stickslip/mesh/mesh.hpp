@@ -34,6 +34,7 @@ struct Mesh {
   std::vector<Vec<Real, dim>> nodes;                                               ///< reference coordinates [length]
   std::vector<std::array<Index, static_cast<std::size_t>(nodes_per_cell)>> cells;  ///< node numbers, from 0
   std::map<std::string, Side<dim>, std::less<>> sides;
+  std::map<std::string, std::vector<Index>, std::less<>> blocks{};  ///< named groups of cells, by number
 
   Index node_count() const { return static_cast<Index>(nodes.size()); }
   Index cell_count() const { return static_cast<Index>(cells.size()); }
@@ -84,6 +85,40 @@ void join(Mesh<dim, nodes_per_cell>& mesh, const std::string& name, const std::v
       if (std::find(joined.nodes.begin(), joined.nodes.end(), n) == joined.nodes.end()) joined.nodes.push_back(n);
   }
   mesh.sides[name] = std::move(joined);
+}
+
+/// The cells of a block on the nodes of the whole mesh, and the parts of its sides that they have: a body that shares
+/// nodes with the others of the mesh (BodyDescription::nodes_of). Throws std::invalid_argument, which lists the
+/// existing names, if there is no such block.
+template <int dim, int nodes_per_cell>
+Mesh<dim, nodes_per_cell> block(const Mesh<dim, nodes_per_cell>& mesh, const std::string& name) {
+  const auto found = mesh.blocks.find(name);
+  if (found == mesh.blocks.end()) {
+    std::string known;
+    for (const auto& [other, cells] : mesh.blocks) known += (known.empty() ? "" : ", ") + other;
+    throw std::invalid_argument("the mesh has no block called \"" + name +
+                                "\"; it has: " + (known.empty() ? "none" : known));
+  }
+  Mesh<dim, nodes_per_cell> part{.nodes = mesh.nodes, .cells = {}, .sides = {}};
+  std::vector<bool> inside(mesh.nodes.size(), false);
+  for (const Index e : found->second) {
+    part.cells.push_back(mesh.cells[static_cast<std::size_t>(e)]);
+    for (const Index n : part.cells.back()) inside[static_cast<std::size_t>(n)] = true;
+  }
+  const auto is_inside = [&](Index n) { return inside[static_cast<std::size_t>(n)]; };
+  for (const auto& [side_name, side] : mesh.sides) {
+    Side<dim> own;
+    for (const auto& facet : side.facets)
+      if (std::all_of(facet.begin(), facet.end(), is_inside)) own.facets.push_back(facet);
+    for (const Index n : side.nodes) {
+      const bool on_facet = std::any_of(own.facets.begin(), own.facets.end(), [&](const auto& facet) {
+        return std::find(facet.begin(), facet.end(), n) != facet.end();
+      });
+      if (is_inside(n) && (side.facets.empty() || on_facet)) own.nodes.push_back(n);
+    }
+    if (!own.nodes.empty()) part.sides[side_name] = std::move(own);
+  }
+  return part;
 }
 
 /// A structured rectangle: cells[0] x cells[1] quadrilaterals over [origin, origin + size].

@@ -21,19 +21,15 @@ namespace detail {
 }  // namespace detail
 
 /// Throws std::invalid_argument, naming the fault, for an invalid mesh: a cell or a side with nodes that do not exist,
-/// a node in no cell, whose matrix row would be zero, or a side with a node or a facet twice, which would count double.
+/// or a side with a node or a facet twice, which would count double.
 template <int dim, int nodes_per_cell>
 void require_sound(const Mesh<dim, nodes_per_cell>& mesh) {
   const std::size_t count = mesh.nodes.size();
   const auto exists = [count](Index n) { return n >= 0 && static_cast<std::size_t>(n) < count; };
-  std::vector<bool> listed(count, false);
   for (std::size_t e = 0; e < mesh.cells.size(); ++e)
-    for (const Index n : mesh.cells[e]) {
+    for (const Index n : mesh.cells[e])
       if (!exists(n)) detail::refuse_node("body: cell " + std::to_string(e), n, count);
-      listed[static_cast<std::size_t>(n)] = true;
-    }
-  for (std::size_t n = 0; n < count; ++n)
-    if (!listed[n]) throw std::invalid_argument("body: node " + std::to_string(n) + " of the mesh is in no cell");
+  std::vector<bool> listed(count, false);
 
   for (const auto& [name, side] : mesh.sides) {
     const std::string named = "side \"" + name + "\"";

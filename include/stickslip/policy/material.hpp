@@ -53,6 +53,14 @@ concept MaterialPolicy = requires(const M& material, const Tensor<Real, TensorPa
     } -> std::same_as<MaterialResponse<Real, TensorPattern, typename M::template State<Real, TensorPattern>>>;
 };
 
+/// Whether a material takes a Deformation in place of F, and so strains with all their digits.
+template <class Material, class TensorPattern>
+inline constexpr bool takes_deformation =
+    requires(const Material& material, const Deformation<Real, TensorPattern>& deformation,
+             const typename Material::template State<Real, TensorPattern>& state) {
+  material.respond(deformation, state, Real(0));
+};
+
 /// What a material answers at a point of an element, with all the digits that it can use.
 template <class Material, class S, class TensorPattern, class State>
 MaterialResponse<S, TensorPattern, State> answer_of(const Material& material,

@@ -12,6 +12,54 @@
 
 namespace stickslip {
 
+/// The types of bodies of a model with several: `using Bodies = BodyTypes<Blank, Die>;`, each type with an Element and
+/// a Material. A model without `Bodies` has one body, of its own Element and Material.
+template <class... Types>
+struct BodyTypes {};
+
+namespace detail {
+template <class Model>
+concept NamesBodies = requires {
+  typename Model::Bodies;
+};
+template <class Model>
+struct BodyTypesIn {
+  using type = BodyTypes<Model>;
+};
+template <NamesBodies Model>
+struct BodyTypesIn<Model> {
+  using type = typename Model::Bodies;
+};
+template <class List>
+inline constexpr bool sound_elements = false;
+template <class... Types>
+inline constexpr bool sound_elements<BodyTypes<Types...>> = sizeof...(Types) > 0 &&
+                                                            (ElementPolicy<typename Types::Element> && ...);
+template <class List, int dim>
+inline constexpr bool same_dimension = false;
+template <class... Types, int dim>
+inline constexpr bool same_dimension<BodyTypes<Types...>, dim> = ((Types::Element::dim == dim) && ...);
+template <class List, class TensorPattern>
+inline constexpr bool sound_materials = false;
+template <class... Types, class TensorPattern>
+inline constexpr bool sound_materials<BodyTypes<Types...>, TensorPattern> =
+    (MaterialPolicy<typename Types::Material, TensorPattern> && ...);
+template <class... Types>
+constexpr Symmetry material_symmetry(BodyTypes<Types...>) {
+  Symmetry s = Symmetry::symmetric;
+  ((s = widest(s, Types::Material::symmetry)), ...);
+  return s;
+}
+}  // namespace detail
+
+/// The types of the bodies of a model: those that it names, or itself.
+template <class Model>
+using BodyTypesOf = typename detail::BodyTypesIn<Model>::type;
+
+/// Symmetry of the bodies: the widest over their materials.
+template <class Model>
+inline constexpr Symmetry bodies_symmetry = detail::material_symmetry(BodyTypesOf<Model>{});
+
 /// True when the model has contact at all.
 template <class Model>
 inline constexpr bool has_contact = Model::Enforcement::active;
@@ -95,7 +143,7 @@ constexpr Symmetry contact_symmetry() {
 
 /// Symmetry of the whole system: the widest over all policies.
 template <class Model>
-inline constexpr Symmetry system_symmetry = widest(Model::Material::symmetry, contact_symmetry<Model>());
+inline constexpr Symmetry system_symmetry = widest(bodies_symmetry<Model>, contact_symmetry<Model>());
 
 namespace detail {
 template <class Solver, Symmetry system>
@@ -121,7 +169,7 @@ using SolverParametersOf = SolverParameters<SolverOf<Model>>;
 /// cannot.
 template <class Model>
 inline constexpr Symmetry matrix_storage = (accepts_couplings<SolverOf<Model>> &&
-                                            widest(Model::Material::symmetry, enforcement_symmetry<Model>()) ==
+                                            widest(bodies_symmetry<Model>, enforcement_symmetry<Model>()) ==
                                                 Symmetry::symmetric)
                                                ? SolverOf<Model>::storage
                                                : widest(system_symmetry<Model>, SolverOf<Model>::storage);
@@ -143,6 +191,33 @@ struct StorageOnly {
   Factorization factorize(const SparseView&);
   bool solve(const Real*, Real*);
 };
+// A type of body by its parts, so that models that name them differently are one.
+template <class Element_, class Material_>
+struct BodyType {
+  using Element = Element_;
+  using Material = Material_;
+};
+template <class Type>
+struct BodiesOfMechanics {
+  using Element = typename Type::Element;
+  using Material = typename Type::Material;
+};
+template <class... Types>
+struct BodiesOfMechanics<BodyTypes<Types...>> {
+  using Bodies = BodyTypes<Types...>;
+};
+template <class Model>
+struct BodiesIn {
+  using type = BodyType<typename Model::Element, typename Model::Material>;
+};
+template <class List>
+struct PlainBodies;
+template <class... Types>
+struct PlainBodies<BodyTypes<Types...>> {
+  using type = BodyTypes<BodyType<typename Types::Element, typename Types::Material>...>;
+};
+template <NamesBodies Model>
+struct BodiesIn<Model> : PlainBodies<typename Model::Bodies> {};
 template <class T>
 struct NamedTool {
   using Tool = T;
@@ -164,12 +239,10 @@ struct ToolNameOf<Model> {
 
 /// A model but for its solver, of which only the storage of the matrix is left: what the body, the contacts and the
 /// balance are made of. Models that differ in the solver alone share it, and the compiler's work with it.
-template <class Kinematics_, class Element_, class Material_, class Friction_, class Enforcement_, class Inertia_,
-          class Damping_, class Tool_, Symmetry storage>
-struct Mechanics : detail::NamedTool<Tool_> {
+template <class Kinematics_, class Bodies_, class Friction_, class Enforcement_, class Inertia_, class Damping_,
+          class Tool_, Symmetry storage>
+struct Mechanics : detail::NamedTool<Tool_>, detail::BodiesOfMechanics<Bodies_> {
   using Kinematics = Kinematics_;
-  using Element = Element_;
-  using Material = Material_;
   using Friction = Friction_;
   using Enforcement = Enforcement_;
   using TimeIntegration = Inertia_;
@@ -177,7 +250,7 @@ struct Mechanics : detail::NamedTool<Tool_> {
   using LinearSolver = detail::StorageOnly<storage>;
 };
 template <class Model>
-using MechanicsOf = Mechanics<typename Model::Kinematics, typename Model::Element, typename Model::Material,
+using MechanicsOf = Mechanics<typename Model::Kinematics, typename detail::BodiesIn<Model>::type,
                               typename Model::Friction, typename Model::Enforcement, typename Model::TimeIntegration,
                               DampingOf<Model>, typename detail::ToolNameOf<Model>::type, matrix_storage<Model>>;
 
@@ -187,12 +260,13 @@ namespace rule {
 template <class Model>
 concept Kinematics = KinematicsPolicy<typename Model::Kinematics>;
 template <class Model>
-concept Element = ElementPolicy<typename Model::Element>;
+concept Element = detail::sound_elements<BodyTypesOf<Model>>;
 template <class Model>
-concept SameDimension = !Kinematics<Model> || !Element<Model> || Model::Element::dim == Model::Kinematics::dim;
+concept SameDimension =
+    !Kinematics<Model> || !Element<Model> || detail::same_dimension<BodyTypesOf<Model>, Model::Kinematics::dim>;
 template <class Model>
 concept Material =
-    !Kinematics<Model> || MaterialPolicy<typename Model::Material, typename Model::Kinematics::TensorPattern>;
+    !Kinematics<Model> || detail::sound_materials<BodyTypesOf<Model>, typename Model::Kinematics::TensorPattern>;
 template <class Model>
 concept Friction = FrictionPolicy<typename Model::Friction>;
 template <class Model>
@@ -220,7 +294,7 @@ concept SolverAcceptsSystem =
     SolverOf<Model>::accepts == Symmetry::general;
 template <class Model>
 concept CorrectsCouplings = !HasSymmetry<Model> || !LinearSolver<Model> || !accepts_couplings<SolverOf<Model>> ||
-                            widest(Model::Material::symmetry, enforcement_symmetry<Model>()) == Symmetry::symmetric;
+                            widest(bodies_symmetry<Model>, enforcement_symmetry<Model>()) == Symmetry::symmetric;
 }  // namespace rule
 
 /// True for a model that meets every rule.
@@ -259,7 +333,7 @@ struct CheckModel {
                 "to ThreeDimensional or take an isotropic law.");
   static_assert(rule::TimeIntegration<Model>,
                 "stickslip: the model's TimeIntegration does not meet TimeIntegrationPolicy; see docs/policies.md, "
-                "section TimeIntegration.");
+                "section Time integration.");
   static_assert(rule::Damping<Model>,
                 "stickslip: the model's Damping does not meet DampingPolicy; see docs/policies.md, section Damping.");
   static_assert(rule::DampingNeedsInertia<Model>,

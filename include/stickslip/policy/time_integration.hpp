@@ -14,15 +14,14 @@ struct TimeScheme {
   Real alpha_m = 0, alpha_f = 0, beta = 0.25, gamma = 0.5;
 };
 
-/// Inertia that is there: a density and a time scheme.
+/// Inertia that is there: a time scheme, and whether the mass is lumped.
 template <class I>
 concept ActiveTimeIntegration = requires(const I& inertia) {
-  { inertia.density } -> std::convertible_to<Real>;
   { inertia.lumped } -> std::convertible_to<bool>;
   { inertia.scheme } -> std::convertible_to<TimeScheme>;
 };
 
-/// Whether and how inertia enters the balance. docs/policies.md, section Inertia.
+/// Whether and how inertia enters the balance. docs/policies.md, section Time integration.
 template <class I>
 concept TimeIntegrationPolicy = requires {
   requires std::same_as<typename I::Role, role::TimeIntegration>;

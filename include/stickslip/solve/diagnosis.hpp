@@ -6,6 +6,7 @@
 #include <stickslip/body/rigid_body_modes.hpp>
 #include <stickslip/solve/system.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -49,7 +50,7 @@ class Diagnosis {
   static constexpr int dim = Model::Kinematics::dim;
 
   explicit Diagnosis(System<Model>& system)
-      : system_(system), parts_(system.body().mesh()), modes_(system.body().mesh().nodes, parts_) {
+      : system_(system), parts_(system.bodies()), modes_(system.bodies().positions(), parts_) {
     constexpr Index first = Model::Kinematics::hoop ? dim - 1 : 0;  // in axisymmetry the shift along the axis alone
     const IndexMap& dofs = system.dofs();
     std::vector<bool> held(static_cast<std::size_t>(parts_.count() * dim), false);
@@ -95,7 +96,7 @@ class Diagnosis {
     return -1;
   }
   /// The name of a part in a sentence; empty where the body is of one.
-  std::string part_name(Index part) const { return parts_.name(part, system_.body().mesh()); }
+  std::string part_name(Index part) const { return parts_.name(part, system_.bodies()); }
 
   /// Whether friction alone resists some rigid-body mode at the displacements u and `time`. Spoils the last evaluation.
   bool held_by_friction(const Field& u, Real time) {
@@ -106,7 +107,7 @@ class Diagnosis {
   /// softer (theory.md, eq. 6.5) [force].
   Real gap_roundoff() const {
     Real square = 0, share = 1;  // of the stiffness that a body shows whose volume may go aside
-    if constexpr (tells_poisson) share = (1 - 2 * poisson()) / (1 - poisson());
+    for_each_poisson([&](Real nu, const auto&) { share = std::min(share, (1 - 2 * nu) / (1 - nu)); });
     for_each_contact(system_.pairs(), [&](const auto& pair) { square += pair.gap_roundoff_squared(share); });
     return std::sqrt(square);
   }
@@ -120,14 +121,14 @@ class Diagnosis {
       worst = ratio;
       words = text;
     };
-    if constexpr (tells_poisson) {
-      const Real ratio = 2 * (1 + poisson()) / (3 * (1 - 2 * poisson()));
-      accuse(ratio, "the bulk modulus is " + brief(ratio, 2) + " times the shear modulus, at a Poisson's ratio " +
-                        brief(0.5 - poisson(), 2) + " below 0.5");
-    }
+    for_each_poisson([&](Real nu, const std::string& name) {
+      const Real ratio = 2 * (1 + nu) / (3 * (1 - 2 * nu));
+      accuse(ratio, "the bulk modulus" + (name.empty() ? "" : " of body \"" + name + "\"") + " is " + brief(ratio, 2) +
+                        " times the shear modulus, at a Poisson's ratio " + brief(0.5 - nu, 2) + " below 0.5");
+    });
     if (by_gaps) {
       if (!words.empty()) return words;
-      const Real reach = system_.body().extent() + u.lpNorm<Eigen::Infinity>();
+      const Real reach = system_.bodies().extent() + u.lpNorm<Eigen::Infinity>();
       return "coordinates of up to " + brief(reach, 2) + ", of a body that measures " + brief(modes_.extent(), 2) +
              " from its centre, give gaps to no better than " + brief(std::numeric_limits<Real>::epsilon() * reach, 2);
     }
@@ -142,8 +143,13 @@ class Diagnosis {
   }
 
  private:
-  static constexpr bool tells_poisson = requires(const typename Model::Material& m) { m.poisson; };
-  Real poisson() const requires tells_poisson { return system_.body().material().poisson; }
+  // Calls visit(nu, name) for the bodies whose material tells its Poisson's ratio.
+  template <class Visit>
+  void for_each_poisson(Visit&& visit) const {
+    system_.bodies().for_each([&](const auto& body) {
+      if constexpr (requires { body.material().poisson; }) visit(body.material().poisson, body.name());
+    });
+  }
 
   System<Model>& system_;
   Parts parts_;

@@ -31,17 +31,37 @@ struct Energies {
   Real unbalanced() const {
     return external - kinetic - elastic - plastic - penalty - friction - damping - algorithmic;
   }
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("kinetic", self.kinetic);
+    visit("elastic", self.elastic);
+    visit("plastic", self.plastic);
+    visit("penalty", self.penalty);
+    visit("friction", self.friction);
+    visit("damping", self.damping);
+    visit("external", self.external);
+    visit("algorithmic", self.algorithmic);
+  }
 };
 
-/// Whether a model's material and enforcement tell their energies; those of a user may not.
-template <class Model>
-concept TellsEnergies =
-    requires(const typename Model::Material& material, const Tensor<Real, typename Model::Kinematics::TensorPattern>& F,
-             const typename Model::Material::template State<Real, typename Model::Kinematics::TensorPattern>& state) {
+namespace detail {
+template <class Material, class TensorPattern>
+inline constexpr bool tells_energy = requires(const Material& material, const Tensor<Real, TensorPattern>& F,
+                                              const typename Material::template State<Real, TensorPattern>& state) {
   material.energy(F, state);
+};
+template <class TensorPattern, class... Types>
+constexpr bool all_tell_energy(BodyTypes<Types...>) {
+  return (tells_energy<typename Types::Material, TensorPattern> && ...);
 }
-&&(!has_contact<Model> ||
-   requires(const typename Model::Enforcement& enforcement) { enforcement.energy(Real(), Real()); });
+}  // namespace detail
+
+/// Whether a model's materials and enforcement tell their energies; those of a user may not.
+template <class Model>
+concept TellsEnergies = detail::all_tell_energy<typename Model::Kinematics::TensorPattern>(BodyTypesOf<Model>{}) &&
+    (!has_contact<Model> ||
+     requires(const typename Model::Enforcement& enforcement) { enforcement.energy(Real(), Real()); });
 
 /// The books of a run of a scene (theory.md, eq. 7.7): made before its first step, updated after every step. They cost
 /// a pass over the points a step.
@@ -136,20 +156,20 @@ class EnergyGain {
     return energies_.algorithmic < 0 && scale > 0 ? -energies_.algorithmic / scale : 0;
   }
 
-  /// The books, to be kept with a march (io::save).
-  void serialize(Archive& archive, const std::string& books = "books") {
-    archive(books + ", energies", energies_);
-    archive(books + ", start", start_);
-    archive(books + ", kinetic energy of the start", start_kinetic_);
-    archive(books + ", largest work", largest_work_);
-    archive(books + ", displacement", u_);
-    archive(books + ", external", external_);
+  /// The energy balance, to be kept with a march (io::save).
+  void serialize(Archive& archive, const std::string& balance = "energy balance") {
+    archive(balance + ", energies", energies_);
+    archive(balance + ", start", start_);
+    archive(balance + ", kinetic energy of the start", start_kinetic_);
+    archive(balance + ", largest work", largest_work_);
+    archive(balance + ", displacement", u_);
+    archive(balance + ", external", external_);
     if constexpr (!has_inertia<Model>) {
-      archive(books + ", internal", before_.internal);
-      archive(books + ", contact", before_.contact);
-      archive(books + ", reaction", before_.reaction);
+      archive(balance + ", internal", before_.internal);
+      archive(balance + ", contact", before_.contact);
+      archive(balance + ", reaction", before_.reaction);
     }
-    if constexpr (with_forces) archive.resizable(books + ", contact nodes", before_.forces);
+    if constexpr (with_forces) archive.resizable(balance + ", contact nodes", before_.forces);
   }
 
  private:
@@ -157,12 +177,14 @@ class EnergyGain {
 
   // Energies that are functions of the state.
   void read_state() {
-    const auto& material = scene_.body().material();
     energies_.elastic = energies_.plastic = energies_.penalty = 0;
-    scene_.body().visit_points(scene_.displacement(), [&](Index, int, const auto& F, const auto& state, Real weight) {
-      energies_.elastic += weight * material.energy(F, state);
-      if constexpr (requires { material.plastic_work(state); })
-        energies_.plastic += weight * material.plastic_work(state);
+    scene_.bodies().for_each([&](const auto& body) {
+      const auto& material = body.material();
+      body.visit_points(scene_.displacement(), [&](Index, int, const auto& F, const auto& state, Real weight) {
+        energies_.elastic += weight * material.energy(F, state);
+        if constexpr (requires { material.plastic_work(state); })
+          energies_.plastic += weight * material.plastic_work(state);
+      });
     });
     if constexpr (has_contact<Model>)
       scene_.visit_contacts([&](const auto& pair) { energies_.penalty += pair.stored_energy(); });
@@ -182,7 +204,7 @@ class EnergyGain {
         along.take(pair.motion(), t0, t1);
         for (std::size_t k = 0; k < pair.nodes().size(); ++k) {
           const Index n = pair.nodes()[k];
-          const Vec<Real, dim> x = scene_.body().mesh().nodes[static_cast<std::size_t>(n)] + scene_.displacement(n);
+          const Vec<Real, dim> x = scene_.bodies().positions()[static_cast<std::size_t>(n)] + scene_.displacement(n);
           const Vec<Real, dim> own = at_node<dim>(du, n);
           Vec<Real, dim> force = pair.states()[k].force;
           if constexpr (with_forces) {

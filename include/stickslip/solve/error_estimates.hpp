@@ -15,6 +15,14 @@ struct ErrorEstimates {
   Real time = 0;         ///< the size of the step
   Real penetration = 0;  ///< tools that give way
   Real space = 0;        ///< the mesh; only where MarchOptions::mesh_error_interval asks for it
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("lag", self.lag);
+    visit("time", self.time);
+    visit("penetration", self.penetration);
+    visit("space", self.space);
+  }
 };
 
 /// Predicts the force along a path, work over time, from the last two steps (theory.md, eq. 6.18).

@@ -50,6 +50,18 @@ struct WorkCounts {
   Index evaluations = 0;           ///< of the system
   Index tangents_unused = 0;       ///< evaluations of a tangent that was not factorised
   Index evaluations_repeated = 0;  ///< for a tangent that was left out at first
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("factor_bytes", self.factor_bytes);
+    visit("factorizations", self.factorizations);
+    visit("indefinite_factorizations", self.indefinite_factorizations);
+    visit("line_search_cuts", self.line_search_cuts);
+    visit("corrections", self.corrections);
+    visit("evaluations", self.evaluations);
+    visit("tangents_unused", self.tangents_unused);
+    visit("evaluations_repeated", self.evaluations_repeated);
+  }
 };
 
 /// Newton's method on the displacements and the condensed unknowns, with a line search. Work space and the solver's
@@ -263,7 +275,7 @@ class Newton {
     const Space& space = system.space();
     if (!solved || !std::isfinite(space.norm(step_))) return {FailureCause::singular_matrix, {}};
     // A pivot of round-off alone throws the body out of sight, where round-off outweighs every load.
-    if (space.max(step_) > 1e6 * system.body().extent()) return {FailureCause::singular_matrix, {}};
+    if (space.max(step_) > 1e6 * system.bodies().extent()) return {FailureCause::singular_matrix, {}};
     return {};
   }
 
@@ -294,7 +306,8 @@ class Newton {
     change_.setZero();
     iterate.predict(change_, 0);  // what the system notes of an iteration goes back there as well
     iterate.set_step(0);
-    if (const Failure f = evaluate(iterate, u, time, dt, Want::residual)) return f;
+    // With the tangent, which the search has overwritten: solvers iterate on it, or refine their solutions.
+    if (const Failure f = evaluate(iterate, u, time, dt, Want::tangent)) return f;
     probes_.residual = system.forces().residual;
     krylov.begin(probes_.residual);
     while (krylov.count() < most && space.norm(krylov.residual()) > tolerance * space.norm(probes_.residual)) {
@@ -303,7 +316,7 @@ class Newton {
         z = step_;
       else if (!substitute(system, krylov.next(), z))
         return {FailureCause::singular_matrix, {}};
-      const Real part = length * system.body().extent() / space.max(z);
+      const Real part = length * system.bodies().extent() / space.max(z);
       change_.setZero();
       system.dofs().scatter_add(-part, z, change_);  // the way the step goes: there may be a kink
       iterate.predict(change_, 0);

@@ -24,6 +24,23 @@ struct StepReport {
   Real local_error = 0;  ///< of the time scheme in this step (theory.md, eq. 7.8) [length]; 0 without inertia
   Real work = 0;         ///< done on the body in the step: by deforming it and by friction [energy]
   ErrorEstimates errors{};
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("number", self.number);
+    visit("time", self.time);
+    visit("dt", self.dt);
+    visit("iterations", self.iterations);
+    visit("rejected", self.rejected);
+    visit("outer_iterations", self.outer_iterations);
+    visit("negative_pivots", self.negative_pivots);
+    visit("residual", self.residual);
+    visit("contact", self.contact);
+    visit("lag", self.lag);
+    visit("local_error", self.local_error);
+    visit("work", self.work);
+    visit("errors", self.errors);
+  }
 };
 
 /// Sums over a run.
@@ -48,6 +65,21 @@ struct RunReport {
     errors.time += share * (step.time - errors.time);
     errors.penetration += share * (step.penetration - errors.penetration);
     errors.space += share * (step.space - errors.space);
+  }
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("steps", self.steps);
+    visit("iterations", self.iterations);
+    visit("rejected_steps", self.rejected_steps);
+    visit("outer_iterations", self.outer_iterations);
+    visit("work", self.work);
+    visit("timings", self.timings);
+    visit("max_penetration", self.max_penetration);
+    visit("max_slip", self.max_slip);
+    visit("max_lag", self.max_lag);
+    visit("total_work", self.total_work);
+    visit("errors", self.errors);
   }
 };
 

@@ -44,8 +44,8 @@ class RunState {
       archive("run, last step", step);
       archive("run, sums", report);
       predictor.serialize(archive);
-      archive("run, last swing", last_lag_oscillation);
-      archive("run, swings", oscillation_count);
+      archive("run, last lag oscillation", last_lag_oscillation);
+      archive("run, lag oscillations", oscillation_count);
       archive("run, work", work);
       warnings.serialize(archive);
       archive("run, largest force", largest_force);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <stickslip/base/vector_space.hpp>
-#include <stickslip/body/body.hpp>
+#include <stickslip/body/bodies.hpp>
 #include <stickslip/body/inertia_forces.hpp>
 #include <stickslip/contact/contact_pair.hpp>
 #include <stickslip/dofs/prescribed.hpp>
@@ -36,14 +36,14 @@ struct NodalForces {
 };
 
 /// The discrete balance of a scene: residual and tangent as a function of the nodal displacements (theory.md, eq. 1.1),
-/// the sum of its terms: body, contact pairs and inertia. What a model does not have is an empty term.
+/// the sum of its terms: bodies, contact pairs and inertia. What a model does not have is an empty term.
 template <class Model>
 class System {
   static_assert(CheckModel<Model>::ok);
 
  public:
-  using BodyType = Body<Model>;
-  using Matrix = typename BodyType::Matrix;
+  using BodiesType = Bodies<Model>;
+  using Matrix = typename BodiesType::Matrix;
   using Pairs = StoredIf<has_contact<Model>, ContactPairs<Model>, Matrix>;
   using Inertia = InertiaForces<Model>;
   using Space = SerialSpace;
@@ -52,18 +52,21 @@ class System {
   class Iterate;
 
   /// `revision` tells systems of one scene apart, for those who keep what they made of its pattern.
-  System(BodyType& body, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
+  System(BodiesType& bodies, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
          const std::vector<SideValue>& loads, Index revision = 1)
-      : body_(body), pairs_(pairs), inertia_(inertia), prescribed_(dim, body.extent()), pattern_revision_(revision) {
-    for (const SideValue& d : driven) prescribed_.drive(d, body.mesh().side(d.side).nodes);
-    for (const SideValue& l : loads)
-      prescribed_.load(l, body.mesh().side(l.side).nodes, nodal_areas(body.mesh(), body.kinematics(), l.side));
-    const Index components = body.mesh().node_count() * dim;
+      : bodies_(bodies),
+        pairs_(pairs),
+        inertia_(inertia),
+        prescribed_(dim, bodies.extent()),
+        pattern_revision_(revision) {
+    for (const SideValue& d : driven) prescribed_.drive(d, bodies.side_nodes(d.side));
+    for (const SideValue& l : loads) prescribed_.load(l, bodies.side_nodes(l.side), bodies.side_areas(l.side));
+    const Index components = bodies.node_count() * dim;
     dofs_ = prescribed_.unknowns_of(components);
-    SparsityPattern pattern(dofs_, BodyType::storage);
-    body_.couple(pattern);
+    SparsityPattern pattern(dofs_, matrix_storage<Model>);
+    bodies_.couple(pattern);
     matrix_ = Matrix(pattern);
-    body_.connect(dofs_, matrix_);
+    bodies_.connect(dofs_, matrix_);
     std::size_t nodes = 0;
     for_each_contact(pairs_, [&](auto& pair) {
       pair.connect(dofs_, matrix_);
@@ -93,7 +96,7 @@ class System {
   Index pattern_revision() const { return pattern_revision_; }
   /// Supports and loads.
   const Prescribed& prescribed() const { return prescribed_; }
-  BodyType& body() { return body_; }
+  BodiesType& bodies() { return bodies_; }
   Pairs& pairs() { return pairs_; }
   const Pairs& pairs() const { return pairs_; }
 
@@ -120,7 +123,7 @@ class System {
   /// Bound of the residual that round-off alone leaves: the largest stiffness of the body and of sticking times the
   /// extent of the coordinates (theory.md, eq. 6.3).
   Real roundoff(const Field& u) const {
-    const Real moved = space_.max(u), extent = body_.extent();
+    const Real moved = space_.max(u), extent = bodies_.extent();
     Real force = stiffness_ * (exact_strains && !has_contact<Model> ? moved : moved + extent);
     if (has_contact<Model>) force += stick_stiffness_ * (moved + extent);
     return 16 * std::numeric_limits<Real>::epsilon() * force * std::sqrt(space_.sum(Real(dofs_.unknowns())));
@@ -150,7 +153,7 @@ class System {
     if (const Real share = inertia_.contact_share() - 1; share != 0)  // a support takes the force of contact itself
       for (Index c = 0; c < dofs_.components(); ++c)
         if (dofs_.equation(c) == IndexMap::constrained) forces_.reaction[c] -= share * forces_.contact[c];
-    body_.commit();
+    bodies_.commit();
     for_each_contact(pairs_, [](auto& pair) { pair.commit(); });
   }
 
@@ -180,8 +183,8 @@ class System {
     has_tangent_ = evaluated_ = false;
     forces_.internal.setZero();
     matrix_.set_zero();
-    return body_.evaluate(EvaluationType{u, 0, 0, Want::tangent, nullptr, false, nullptr, matrix_, couplings_},
-                          forces_.internal);
+    return bodies_.evaluate(EvaluationType{u, 0, 0, Want::tangent, nullptr, false, nullptr, matrix_, couplings_},
+                            forces_.internal);
   }
   Failure evaluate(const EvaluationType& ev) {
     if (const Failure f = compute_penalties(ev.u, true)) return f;
@@ -215,7 +218,7 @@ class System {
     }
     {
       const Stopwatch watch(timings.assembly);
-      if (const Failure f = body_.evaluate(ev, forces_.internal)) return f;
+      if (const Failure f = bodies_.evaluate(ev, forces_.internal)) return f;
       if (with_tangent && !measured_) measure_stiffness();
       if constexpr (weighs_body)
         if (ev.dt > 0) {
@@ -250,15 +253,13 @@ class System {
     });
     stick_stiffness_ = space_.max(stick_stiffness_);
   }
-  // Whether the material takes strains with all their digits.
-  static constexpr bool exact_strains =
-      requires(const typename Model::Material& material,
-               const Deformation<Real, typename Model::Kinematics::TensorPattern>& deformation,
-               const typename BodyType::State& state) {
-    material.respond(deformation, state, Real(0));
-  };
+  template <class... Types>
+  static constexpr bool take_deformation(BodyTypes<Types...>) {
+    return (takes_deformation<typename Types::Material, typename Model::Kinematics::TensorPattern> && ...);
+  }
+  static constexpr bool exact_strains = take_deformation(BodyTypesOf<Model>{});
 
-  BodyType& body_;
+  BodiesType& bodies_;
   Pairs& pairs_;
   Inertia& inertia_;
   [[no_unique_address]] Space space_{};
@@ -290,7 +291,7 @@ class System<Model>::Iterate {
   /// Begins again at the converged state's values of the condensed unknowns.
   void restart() {
     system_.measured_ = system_.with_mass_ = system_.plain_ = false;
-    system_.body_.begin_iteration();
+    system_.bodies_.begin_iteration();
     for_each_contact(system_.pairs_, [](auto& pair) { pair.begin_iteration(); });
   }
   /// The same, with nodes linearised as sticking that the last try has lost; with all of them where `sticking`.
@@ -317,12 +318,12 @@ class System<Model>::Iterate {
   /// Predicts the condensed unknowns after the change du of the displacements, with a fraction of their constraint
   /// residuals closed.
   void predict(const Field& du, Real fraction = 1) {
-    system_.body_.predict(du, fraction);
+    system_.bodies_.predict(du, fraction);
     for_each_contact(system_.pairs_, [&](auto& pair) { pair.predict(du, fraction); });
   }
   /// Takes a part of the change of the last `predict`.
   void set_step(Real length) {
-    system_.body_.set_step(length);
+    system_.bodies_.set_step(length);
     for_each_contact(system_.pairs_, [&](auto& pair) { pair.set_step(length); });
   }
   /// Keeps the multipliers and bounds that were reached; the state is to be committed.
@@ -339,7 +340,7 @@ class System<Model>::Iterate {
     s.dofs_.gather(s.constraint_force_, s.open_);
     s.open_ = s.forces_.residual - share * s.open_;
     const Real imbalance = s.space_.norm(s.open_);
-    Real constraints = s.body_.constraint_merit();
+    Real constraints = s.bodies_.constraint_merit();
     if constexpr (weighs_body) constraints *= std::pow(s.inertia_.body_share(), 2);
     for_each_contact(s.pairs_, [&](const auto& pair) { constraints += pair.constraint_merit(); });
     constraints = s.space_.sum(constraints);

@@ -14,6 +14,15 @@ struct Timings {
   Real factorization = 0;  ///< numeric and, once, symbolic
   Real solve = 0;          ///< forward and backward substitution
   Real estimates = 0;      ///< of the mesh's error
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("assembly", self.assembly);
+    visit("contact", self.contact);
+    visit("factorization", self.factorization);
+    visit("solve", self.solve);
+    visit("estimates", self.estimates);
+  }
 };
 
 /// Adds the time of a scope to a counter.

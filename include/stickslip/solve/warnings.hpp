@@ -37,14 +37,14 @@ class Warnings {
 
   void serialize(Archive& archive) {
     std::vector<char> words;
-    std::vector<Index> numbers;
+    std::vector<Times> times;
     for (std::size_t k = 0; k < list_.size(); ++k) {
       for (const std::string* word : {&list_[k].name, &list_[k].text, &subjects_[k]})
         words.insert(words.end(), word->c_str(), word->c_str() + word->size() + 1);
-      numbers.insert(numbers.end(), {list_[k].step, list_[k].count});
+      times.push_back({list_[k].step, list_[k].count});
     }
     archive.resizable("run, warnings", words);
-    archive.resizable("run, times of warnings", numbers);
+    archive.resizable("run, times of warnings", times);
     if (!archive.loading()) return;
     list_.clear();
     subjects_.clear();
@@ -55,14 +55,24 @@ class Warnings {
       at = end == words.end() ? end : end + 1;
       return word;
     };
-    for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) {
+    for (const Times& told : times) {
       std::string name = next(), text = next(), subject = next();
-      list_.push_back({std::move(name), std::move(text), numbers[k], numbers[k + 1]});
+      list_.push_back({std::move(name), std::move(text), told.step, told.count});
       subjects_.push_back(std::move(subject));
     }
   }
 
  private:
+  struct Times {
+    Index step = 0, count = 0;
+
+    template <class Self, class Visit>
+    static constexpr void members(Self& self, Visit&& visit) {
+      visit("step", self.step);
+      visit("count", self.count);
+    }
+  };
+
   std::vector<Warning> list_;
   std::vector<std::string> subjects_;
 };

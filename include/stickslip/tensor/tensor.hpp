@@ -48,6 +48,11 @@ struct Tensor {
   }
   S& operator()(int i, int j) { return v[TensorPattern::at(i, j)]; }
   const S& operator()(int i, int j) const { return v[TensorPattern::at(i, j)]; }
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("v", self.v);
+  }
 };
 
 /// Symmetric second-order tensor, each component stored once and unaligned: without padding in material states.
@@ -68,6 +73,11 @@ struct SymmetricTensor {
       t(i, j) = t(j, i) = v[a];
     }
     return t;
+  }
+
+  template <class Self, class Visit>
+  static constexpr void members(Self& self, Visit&& visit) {
+    visit("v", self.v);
   }
 };
 

@@ -38,12 +38,10 @@ struct GeneralizedAlpha {
   using Role = role::TimeIntegration;
   static constexpr bool active = true;
 
-  Real density = 0;                        ///< mass per reference volume [mass / length^3]
   TimeScheme scheme = chung_hulbert(0.5);  ///< or newmark(), hht(alpha)
   bool lumped = false;
 
   void validate() const {
-    require::positive(density, "inertia: the density");
     require::positive(scheme.beta, "inertia: the scheme's beta");
     require::finite(scheme.gamma, "inertia: the scheme's gamma");
     require::finite(scheme.alpha_m, "inertia: the scheme's alpha_m");
