@@ -66,7 +66,7 @@ TEST_CASE_TEMPLATE("iterations end at their limits", Solver, ConjugateGradients,
   check_limits<Solver>();
 }
 
-TEST_CASE("conjugate gradients refuse a matrix with gaps in its diagonal") {
+TEST_CASE("conjugate gradients refuse a matrix without a diagonal entry") {
   // (1 1; 1 0)
   const Matrix saddle{{0, 2, 2}, {0, 1}, {1.0, 1.0}, Symmetry::symmetric};
   CHECK(answer<ConjugateGradients>(saddle).factorization == Factorization::failed);
@@ -88,7 +88,7 @@ TEST_CASE("an incomplete factor that is too loose stays tightened") {
   CHECK(answer(solver, m).solved);
   CHECK(solver.iterations() < 100);
 }
-TEST_CASE("a march takes the limits of its solver, also of a corrected one, and refuses those that are none") {
+TEST_CASE("a march takes the limits of its solver, also of a corrected one, and refuses invalid ones") {
   const auto moved = [](auto model, Real tolerance) {
     auto p = scene::press_and_drag<decltype(model)>(0.2, 0.2, 1, {8, 4});
     CHECK(p->march({.end = 1, .steps = 2, .tolerance = 1e-6}, {.tolerance = tolerance}).finish());
