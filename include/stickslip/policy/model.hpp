@@ -32,11 +32,14 @@ template <NamesBodies Model>
 struct BodyTypesIn<Model> {
   using type = typename Model::Bodies;
 };
+template <class Type>
+concept HasSoundElement = ElementPolicy<typename Type::Element>;
+template <class Type, class TensorPattern>
+concept HasSoundMaterial = MaterialPolicy<typename Type::Material, TensorPattern>;
 template <class List>
 inline constexpr bool sound_elements = false;
 template <class... Types>
-inline constexpr bool sound_elements<BodyTypes<Types...>> = sizeof...(Types) > 0 &&
-                                                            (ElementPolicy<typename Types::Element> && ...);
+inline constexpr bool sound_elements<BodyTypes<Types...>> = sizeof...(Types) > 0 && (HasSoundElement<Types> && ...);
 template <class List, int dim>
 inline constexpr bool same_dimension = false;
 template <class... Types, int dim>
@@ -44,8 +47,8 @@ inline constexpr bool same_dimension<BodyTypes<Types...>, dim> = ((Types::Elemen
 template <class List, class TensorPattern>
 inline constexpr bool sound_materials = false;
 template <class... Types, class TensorPattern>
-inline constexpr bool sound_materials<BodyTypes<Types...>, TensorPattern> =
-    (MaterialPolicy<typename Types::Material, TensorPattern> && ...);
+inline constexpr bool sound_materials<BodyTypes<Types...>, TensorPattern> = (HasSoundMaterial<Types, TensorPattern> &&
+                                                                             ...);
 template <class... Types>
 constexpr Symmetry material_symmetry(BodyTypes<Types...>) {
   Symmetry s = Symmetry::symmetric;
