@@ -14,6 +14,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -163,7 +164,6 @@ TEST_CASE("the body that nothing holds is named") {
 }
 
 TEST_CASE("masses and energies of several bodies add up, each with its own density") {
-
   Problem<Flying>::Parameters parameters{.contacts = {}};
   parameters.bodies = {
       {{.name = "blank",
@@ -179,6 +179,24 @@ TEST_CASE("masses and energies of several bodies add up, each with its own densi
   REQUIRE(bool(march.outcome()));
   CHECK(p.inertia().kinetic_energy() == doctest::Approx(0.5 * 50 * (2 + 3)).epsilon(1e-12));
   CHECK(std::abs(energy.energies().unbalanced()) < 1e-10 * 125);
+}
+
+// The numbers of an array of a VTU file: base64 of their count in bytes and of themselves.
+std::vector<Real> decoded(const std::string& text, const std::string& name) {
+  const auto begin = text.find(">", text.find("Name=\"" + name + "\"")) + 1, end = text.find("</DataArray>", begin);
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned buffer = 0;
+  int bits = 0;
+  for (const char c : text.substr(begin, end - begin)) {
+    const auto digit = digits.find(c);
+    if (digit == digits.npos) continue;
+    buffer = buffer << 6 | unsigned(digit);
+    if ((bits += 6) >= 8) bytes.push_back(char(buffer >> (bits -= 8) & 0xff));
+  }
+  std::vector<Real> values(bytes.size() / sizeof(Real) - 1);
+  std::memcpy(values.data(), bytes.data() + sizeof(Real), values.size() * sizeof(Real));
+  return values;
 }
 
 TEST_CASE("a restart file and a picture know all bodies") {
@@ -201,7 +219,25 @@ TEST_CASE("a restart file and a picture know all bodies") {
   std::stringstream text;
   text << std::ifstream(picture).rdbuf();
   CHECK(text.str().find("NumberOfPoints=\"90\" NumberOfCells=\"64\"") != std::string::npos);
-  CHECK(text.str().find("Name=\"body\"") != std::string::npos);
+  const auto array = [&](const std::string& name) { return decoded(text.str(), name); };
+  const std::vector<Real> body = array("body"), slip = array("slip"), mises = array("von_mises_stress"),
+                          stress = array("cauchy_stress"), plastic = array("plastic_strain");
+  CHECK(std::count(body.begin(), body.end(), 0.0) == 32);
+  CHECK(std::count(body.begin(), body.end(), 1.0) == 32);
+  CHECK(std::count_if(plastic.begin(), plastic.end(), [](Real p) { return std::isnan(p); }) == 32);
+  Real largest = 0;
+  for (const char* name : {"first", "second"})
+    for (const auto& node : first.contact(name).states()) largest = std::max(largest, node.accumulated_slip);
+  CHECK(largest > 0);
+  CHECK(*std::max_element(slip.begin(), slip.end()) == largest);
+  for (std::size_t e = 0; e < mises.size(); ++e) {
+    // The mean of von Mises' stress is at least that of the mean stress.
+    const Real *s = &stress[6 * e], mean = (s[0] + s[1] + s[2]) / 3;
+    const Real of_mean = std::sqrt(1.5 * (std::pow(s[0] - mean, 2) + std::pow(s[1] - mean, 2) +
+                                          std::pow(s[2] - mean, 2) + 2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
+    CHECK(mises[e] >= of_mean * (1 - 1e-12));
+    CHECK(mises[e] <= 2 * of_mean + 20);
+  }
   auto other = pair();
   std::get<1>(other.bodies)[0].mesh = mesh::rectangle(at(31));
   Problem<Two> unlike(std::move(other));

@@ -208,6 +208,13 @@ TEST_CASE("lagged pressures have the errors and the critical feedback of the the
   CHECK(std::abs(error_after<LastConverged>(400, 1, 1.01, constant)) > 0.1);
   CHECK(std::abs(error_after<Extrapolated>(400, 1, 0.32, constant)) < 1e-3);
   CHECK(std::abs(error_after<Extrapolated>(400, 1, 0.35, constant)) > 0.01);
+  const auto settles = [&]<class Source>(Source) {
+    const Real critical = Source::critical_feedback;
+    CHECK(std::abs(error_after<Source>(4000, 1, 0.98 * critical, constant)) < 1e-6);
+    CHECK(std::abs(error_after<Source>(4000, 1, 1.02 * critical, constant)) > 1e-2);
+  };
+  settles(LastConverged{});
+  settles(Extrapolated{});
   const Real h = 0.01, kappa = 0.2;
   const auto growing = [](Real t) { return 5 + t * t; };
   const Real slope = 2 * h * (200 * h - 0.5 * h), bend = 2 * h * h;  // last and second difference of the load
