@@ -21,13 +21,13 @@ enum class FailureCause {
   slides,            ///< nothing but friction holds the body, and it is not enough
   contradicting_supports,  ///< two supports that prescribe different values of one component
   not_converged,           ///< the iteration limit was reached
-  outer_failed,            ///< the passes over a step, each converged, did not settle: multipliers or a lagging bound
-  lag_unstable,            ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
-  slide_turns,             ///< a tool turned, or moved to and fro, by more than a node's slide over the step can follow
-  tunnelled,               ///< a node's way over the step led through a tool, whose force it never felt
-  energy_gained,           ///< the time scheme has made energy, beyond the limit that was asked for
-  stalled,                 ///< no step along the Newton direction lowers the residual
-  digits_lost,             ///< round-off leaves of the forces less than the tolerance asks for
+  outer_failed,   ///< the outer iterations of a step, each converged, did not settle: multipliers or a lagging bound
+  lag_unstable,   ///< a bound that lags changes its own pressure by more than it lags: no step is small enough
+  slide_turns,    ///< a tool turned, or moved to and fro, by more than a node's slide over the step can follow
+  tunnelled,      ///< a node's way over the step led through a tool, whose force it never felt
+  energy_gained,  ///< the time scheme has made energy, beyond the limit that was asked for
+  stalled,        ///< no step along the Newton direction lowers the residual
+  digits_lost,    ///< round-off leaves of the forces less than the tolerance asks for
 };
 
 /// The sentence part that names a cause.

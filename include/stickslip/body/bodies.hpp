@@ -151,10 +151,10 @@ class Bodies {
   }
 
   // The only body of a model that names no types of bodies.
-  const auto& only() const requires one_type { return std::get<0>(lists_).front(); }
-  const auto& mesh() const requires one_type { return only().mesh(); }
-  const Kinematics& kinematics() const requires one_type { return only().kinematics(); }
-  const auto& material() const requires one_type { return only().material(); }
+  const auto& only() const requires(!detail::NamesBodies<Model>) { return std::get<0>(lists_).front(); }
+  const auto& mesh() const requires(!detail::NamesBodies<Model>) { return only().mesh(); }
+  const Kinematics& kinematics() const requires(!detail::NamesBodies<Model>) { return only().kinematics(); }
+  const auto& material() const requires(!detail::NamesBodies<Model>) { return only().material(); }
 
   // --- The term: see BodyOf
   // -------------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@
 
 namespace stickslip {
 
-/// What a pair did in the last assembly.
+/// What a pair did in the last evaluation.
 struct ContactSummary {
   Index touching = 0;        ///< nodes in contact
   Index sliding = 0;         ///< of them, nodes that slide

@@ -33,21 +33,14 @@ class StartsConverged {
 
 /// Multipliers that outer iterations bring to their values.
 template <class Memory>
-class StartsAugmented {
+class StartsAugmented : public StartsConverged<Memory> {
  public:
-  explicit StartsAugmented(std::size_t nodes) : nodes_(nodes) {}
+  explicit StartsAugmented(std::size_t nodes) : StartsConverged<Memory>(nodes), nodes_(nodes) {}
   /// Goes back to the converged state.
   void reset(const History<Memory>& history) {
     if constexpr (History<Memory>::stored) nodes_ = history.converged();
   }
-  template <class States>
-  void begin_iteration(const States&) {}
-  template <class Predicted>
-  void predict(Predicted&&) {}
   Memory at(std::size_t k, const History<Memory>&, Real) const { return nodes_[k]; }
-  const Memory& advance(std::size_t, const Memory& memory, bool, Real, const History<Memory>&, Real) const {
-    return memory;
-  }
   Memory& operator[](std::size_t k) { return nodes_[k]; }
   const Memory& operator[](std::size_t k) const { return nodes_[k]; }
 

@@ -25,7 +25,7 @@ struct NormalForce {
   S d_gap;  ///< [force / length]
 };
 
-/// Whether an enforcement has multipliers that passes over a step bring to their values: `augmented(pressure)` gives
+/// Whether an enforcement has multipliers that outer iterations bring to their values: `augmented(pressure)` gives
 /// the memory for the next pass.
 template <class E>
 inline constexpr bool is_augmented = requires(const E& enforcement, const Real& pressure) {

@@ -53,7 +53,7 @@ inline constexpr bool is_anisotropic = requires(const Law& law) {
   { law.metric() } -> std::same_as<Mat<Real, 3>>;
 };
 
-/// Whether a pressure source is brought up to date by passes over a step, and not by its end alone.
+/// Whether a pressure source is brought up to date by outer iterations, and not by its end alone.
 template <class Source>
 constexpr bool is_iterated() {
   if constexpr (requires { Source::iterated; })
@@ -189,7 +189,7 @@ template <class F>
 constexpr Symmetry friction_symmetry() {
   return detail::FrictionsOf<F>::type::any_general ? Symmetry::general : Symmetry::symmetric;
 }
-/// Whether a bound is brought up to date by passes over a step.
+/// Whether a bound is brought up to date by outer iterations.
 template <class F>
 inline constexpr bool friction_is_iterated = detail::FrictionsOf<F>::type::any_iterated;
 /// Whether a bound lags behind the pressure and can be asked what another pressure would do.

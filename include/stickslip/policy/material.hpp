@@ -33,15 +33,15 @@ struct Deformation {
 template <class S, class TensorPattern, class State>
 struct MaterialResponse {
   Tensor<S, TensorPattern> P;      ///< first Piola-Kirchhoff stress [force / reference area], first index spatial
-  Moduli<S, TensorPattern> dP_dF;  ///< its consistent derivative, rows and columns in the order of Shape::pairs
+  Moduli<S, TensorPattern> dP_dF;  ///< its consistent derivative, rows and columns in the order of TensorPattern::pairs
   State state;                     ///< memory at the end of the step
   FailureCause cause = FailureCause::none;
 };
 
-/// Constitutive law at a point: old memory in, stress, consistent tangent and new memory out. `State<S, Shape>` is an
-/// empty struct where nothing is remembered. A second call with the new memory, the same F and dt = 0 returns the same
-/// stress. A law that can be had with more digits takes a Deformation in place of F as well. docs/policies.md, section
-/// Material.
+/// Constitutive law at a point: old memory in, stress, consistent tangent and new memory out. `State<S, TensorPattern>`
+/// is an empty struct where nothing is remembered. A second call with the new memory, the same F and dt = 0 returns the
+/// same stress. A law that can be had with more digits takes a Deformation in place of F as well. docs/policies.md,
+/// section Material.
 template <class M, class TensorPattern>
 concept MaterialPolicy = requires(const M& material, const Tensor<Real, TensorPattern>& F,
                                   const typename M::template State<Real, TensorPattern>& old, Real dt) {

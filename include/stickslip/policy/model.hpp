@@ -107,7 +107,7 @@ inline constexpr bool has_contact = Model::Enforcement::active;
 template <class Model>
 inline constexpr bool has_friction = has_contact<Model>&& Model::Friction::active;
 
-/// True when a step takes several passes: multipliers, or a bound that is brought up to date.
+/// True when a step takes several outer iterations: multipliers, or a bound that is brought up to date.
 template <class Model>
 constexpr bool has_outer_iterations() {
   if constexpr (has_friction<Model>)

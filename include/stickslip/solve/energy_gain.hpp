@@ -63,8 +63,8 @@ concept TellsEnergies = detail::all_tell_energy<typename Model::Kinematics::Tens
     (!has_contact<Model> ||
      requires(const typename Model::Enforcement& enforcement) { enforcement.energy(Real(), Real()); });
 
-/// The books of a run of a scene (theory.md, eq. 7.7): made before its first step, updated after every step. They cost
-/// a pass over the points a step.
+/// The energy balance of a run of a scene (theory.md, eq. 7.7): made before its first step, updated after every step.
+/// They cost a pass over the points a step.
 template <class Model, class Scene>
 class EnergyGain {
  public:
@@ -88,7 +88,7 @@ class EnergyGain {
     start_ = energies_.kinetic + energies_.elastic + energies_.penalty;
   }
 
-  /// Books the step that has just been taken.
+  /// Adds the step that has just been taken.
   void update(const StepReport& step) {
     const auto& system = scene_.system();
     const auto& space = system.space();
@@ -147,7 +147,7 @@ class EnergyGain {
     }
   }
 
-  /// The books since the start.
+  /// The energy balance since the start.
   const Energies& energies() const { return energies_; }
   /// What the time scheme has gained since the start, over the largest of the energy of the start and the work done so
   /// far (theory.md, eq. 7.17) [-]; 0 where it has lost.

@@ -123,7 +123,7 @@ class RunState {
   void warn(const std::string& name, const std::string& subject, const std::string& text) {
     now_.warnings.add(name, subject, text, now_.report.steps + 1);
   }
-  // Books what is left of a converged state's forces, `residual` and what the gaps' round-off makes of them, and the
+  // Notes what is left of a converged state's forces, `residual` and what the gaps' round-off makes of them, and the
   // largest `scale` so far; whether that is too much in a run that ends with this step (theory.md, eq. 6.4).
   bool digits_lost(Real scale, Real residual, Real of_gaps, bool ends) {
     now_.largest_force = scale;

@@ -27,10 +27,9 @@ struct MarchOptions {
   Real time_tolerance = 0;      ///< with inertia: limit of a step's local error (theory.md, eq. 7.8) [length]; 0: none
   Real lag_tolerance = 0;   ///< that automatic steps aim at, see ErrorEstimates::lag (theory.md, eq. 6.10) [-]; 0: none
   Real step_tolerance = 0;  ///< the same for ErrorEstimates::time
-  Index max_iterations = 20;  ///< of Newton's method
-  Real outer_tolerance =
-      1e-4;              ///< of passes over a step, where the model takes them (theory.md, eq. 4.18 and 5.31) [-]
-  Index max_outer = 30;  ///< over a step
+  Index max_iterations = 20;    ///< of Newton's method
+  Real outer_tolerance = 1e-4;  ///< of outer iterations, where the model takes them (theory.md, eq. 4.18 and 5.31) [-]
+  Index max_outer = 30;         ///< over a step
   Index mesh_error_interval = 0;  ///< steps from one estimate of the mesh's error to the next; 0: none
   bool line_search = true;
   bool detect_tunnelling = true;  ///< reject a step over which a node goes through a tool (theory.md, eq. 4.20)
