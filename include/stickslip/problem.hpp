@@ -347,6 +347,7 @@ typename March<Model>::Attempt March<Model>::attempt(Iterate& iterate, Field& u,
   }
   if (newton.failure) return a;
   if (extrapolated) {
+    if (problem_.last_dt_ > 0) iterate.extrapolate(dt / problem_.last_dt_);
     newton = newton_.solve(iterate, u, time, dt);
   } else {
     driven_ = u - problem_.u_;

@@ -165,6 +165,9 @@ class Bodies {
   void connect(const IndexMap& dofs, const Matrix& matrix) {
     for_each([&](auto& body) { body.connect(dofs, matrix); });
   }
+  void extrapolate(Real share) {
+    for_each([&](auto& body) { body.extrapolate(share); });
+  }
   void begin_iteration() {
     for_each([](auto& body) { body.begin_iteration(); });
   }

@@ -94,6 +94,7 @@ class BodyOf {
 
   /// Begins an iteration: the condensed unknowns' values of the converged state become unknowns of their own.
   void begin_iteration() { condensed_.begin(); }
+  void extrapolate(Real share) { condensed_.extrapolate(share); }
   /// Predicts the condensed unknowns after the change du of the displacements, with a fraction of their constraint
   /// residuals closed.
   void predict(const Field& du, Real fraction) {

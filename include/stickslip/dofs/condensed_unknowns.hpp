@@ -22,7 +22,7 @@ class CondensedUnknowns {
   static constexpr Real merit_weight = 0.05;
 
   explicit CondensedUnknowns(std::size_t count = 0)
-      : now_(count), converged_(count, Unknown::zero()), start_(converged_), step_(converged_) {}
+      : now_(count), converged_(count, Unknown::zero()), start_(converged_), step_(converged_), increment_(converged_) {}
 
   Unknown& operator[](std::size_t k) { return now_[k]; }
   const Unknown& operator[](std::size_t k) const { return now_[k]; }
@@ -34,9 +34,16 @@ class CondensedUnknowns {
     for (std::size_t k = 0; k < now_.size(); ++k) begin(k);
   }
   void begin(std::size_t k) { now_[k].value = converged_[k]; }
+  /// Adds `share` of the last increment of the converged values, as displacements that are extrapolated do.
+  void extrapolate(Real share) {
+    for (std::size_t k = 0; k < now_.size(); ++k) now_[k].value += share * increment_[k];
+  }
   /// Makes the present values the converged ones.
   void commit() {
-    for (std::size_t k = 0; k < now_.size(); ++k) converged_[k] = now_[k].value;
+    for (std::size_t k = 0; k < now_.size(); ++k) {
+      increment_[k] = now_[k].value - converged_[k];
+      converged_[k] = now_[k].value;
+    }
   }
   /// Predicts the value after the change du of its displacements, with a fraction of its constraint residual closed.
   void predict(std::size_t k, const Vec<Real, n>& du, Real fraction) {
@@ -61,11 +68,14 @@ class CondensedUnknowns {
   }
 
   /// The converged values.
-  void serialize(Archive& archive, const std::string& name) { archive(name, converged_); }
+  void serialize(Archive& archive, const std::string& name) {
+    archive(name, converged_);
+    archive(name + ", last increment", increment_);
+  }
 
  private:
   std::vector<Unknown> now_;
-  std::vector<Value> converged_, start_, step_;
+  std::vector<Value> converged_, start_, step_, increment_;
 };
 
 /// Of a term that has none.
@@ -74,6 +84,7 @@ class CondensedUnknowns<n, 0> {
  public:
   explicit CondensedUnknowns(std::size_t = 0) {}
   void begin() {}
+  void extrapolate(Real) {}
   void commit() {}
   void set_step(Real) {}
   Real constraint_merit() const { return 0; }
