@@ -32,6 +32,7 @@ class AssumedStrainKernel {
   static constexpr int size = TensorPattern::size;
   static constexpr int first_c = stretches, first_B = first_c + modes * dim, first_hoop = first_B + dim * dim;
   static constexpr int variables = first_hoop + (Kinematics::hoop ? nodes : 0), of_u = variables - stretches;
+  static constexpr int of_vectors = (dim + modes) * dim + (Kinematics::hoop ? nodes : 0);
 
   AssumedStrainKernel(const Geometry& geometry, const Vec<S, dofs>& u) : geometry_(geometry), u_(u) {
     Mat<S, dim> change;  // of the base a_j
@@ -184,7 +185,8 @@ class AssumedStrainKernel {
         v(2, a) = N[a];
         if constexpr (general) v(3, a) = (BR[a] - eta / Real(3) * N[a]) / Real(3);
       }
-      const Mat<S, vectors, variables> w = pull<variables>(g, point.K, v);
+      Mat<S, vectors, variables> w = Mat<S, vectors, variables>::Zero();
+      pull<variables, false>(g, point.K, v, w);
       for (int i = 0; i < variables; ++i) {
         r[i] += w(0, i);
         for (int k = 0; k < dilatations; ++k) {
@@ -199,20 +201,24 @@ class AssumedStrainKernel {
 
       // The derivative of the stress that forces take.
       const S swirl = third - projected;
+      Vec<S, size> left, right;
+      for (int a = 0; a < size; ++a) {
+        left[a] = BL[a] * S(1. / 3) - eta * S(1. / 18) * N[a];
+        right[a] = BR[a] * S(1. / 3) - eta * S(1. / 18) * N[a];
+      }
       for (int b = 0; b < size; ++b) {
         const auto [m, n] = TensorPattern::pairs[std::size_t(b)];
         for (int a = 0; a < size; ++a) {
           const auto [k, l] = TensorPattern::pairs[std::size_t(a)];
-          M(a, b) -= (BL[a] * N[b] + N[a] * BR[b]) / Real(3) - eta / Real(9) * N[a] * N[b];
+          M(a, b) -= left[a] * N[b] + N[a] * right[b];
           if (TensorPattern::couples(l, m) && TensorPattern::couples(n, k))
             M(a, b) += swirl * N[TensorPattern::at(l, m)] * N[TensorPattern::at(n, k)];
         }
       }
-      const Mat<S, size, columns> Y = pull<columns>(g, point.K, M);
-      Mat<S, columns, size> Yt;
-      for (int a = 0; a < size; ++a)
-        for (int j = 0; j < columns; ++j) Yt(j, a) = Y(a, j);
-      add(H, pull<variables>(g, point.K, Yt));
+      Mat<S, size, columns> Y = Mat<S, size, columns>::Zero();
+      pull<columns, false>(g, point.K, M, Y);
+      const Mat<S, columns, size> Yt = transposed(Y);
+      pull<variables, full && !general>(g, point.K, Yt, H);
 
       Mat<S, dim> stress;
       for (int i = 0; i < dim; ++i)
@@ -241,8 +247,8 @@ class AssumedStrainKernel {
       const Mat<S, dim> m = product(SEz[std::size_t(z)], metric_inverse_);
       for (int i = 0; i < dim; ++i)
         for (int j = 0; j < dim; ++j) {
-          H(z, first_B + j * dim + i) -= m(i, j);
           if constexpr (full) H(first_B + j * dim + i, z) -= m(i, j);
+          if constexpr (!full || general) H(z, first_B + j * dim + i) -= m(i, j);
         }
     }
     if constexpr (full) {
@@ -252,8 +258,9 @@ class AssumedStrainKernel {
           for (int j = 0; j < dim; ++j)
             for (int l = 0; l < dim; ++l) {
               const S value = m(i, j) * metric_inverse_(k, l);
-              H(first_B + k * dim + i, first_B + j * dim + l) += value;
-              H(first_B + j * dim + l, first_B + k * dim + i) += value;
+              const int one = first_B + k * dim + i, two = first_B + j * dim + l;
+              if (general || one >= two) H(one, two) += value;
+              if (general || two >= one) H(two, one) += value;
             }
     }
     to_nodes<symmetry, full>(theta, H, r, pL, general ? pR : pL, t, bulk);
@@ -362,11 +369,7 @@ class AssumedStrainKernel {
   }
   // Of one index pair, and transposed: twice it is both pairs.
   Moduli<S, TensorPattern> contravariant(const Moduli<S, TensorPattern>& m) const {
-    const Moduli<S, TensorPattern> half = contravariant_rows(m);
-    Moduli<S, TensorPattern> r;
-    for (int a = 0; a < size; ++a)
-      for (int b = 0; b < size; ++b) r(a, b) = half(b, a);
-    return r;
+    return transposed(contravariant_rows(m));
   }
 
   template <int rows, int c1, int c2>
@@ -378,70 +381,97 @@ class AssumedStrainKernel {
     for (int r = 0; r < rows; ++r) to(r, j) += factor * from(r, i);
   }
 
-  // What acts on G at a point, in every row, as it acts on the first `columns` generalised variables (theory.md, eq.
-  // 2.18).
-  template <int columns, int rows>
-  static Mat<S, rows, columns> pull(const typename Geometry::Point& g, const Mat<S, dim>& K,
-                                    const Mat<S, rows, size>& in) {
+  template <int rows, int columns>
+  static Mat<S, columns, rows> transposed(const Mat<S, rows, columns>& m) {
+    Mat<S, columns, rows> r;
+    for (int j = 0; j < columns; ++j)
+      for (int i = 0; i < rows; ++i) r(j, i) = m(i, j);
+    return r;
+  }
+
+  // Adds what acts on G at a point, in every row, as it acts on the first `columns` generalised variables (theory.md,
+  // eq. 2.18). With `lower`, only rows from a column's own number on.
+  template <int columns, bool lower, int rows>
+  static void pull(const typename Geometry::Point& g, const Mat<S, dim>& K, const Mat<S, rows, size>& in,
+                   Mat<S, rows, columns>& out) {
     const auto at = [](int i, int j) { return TensorPattern::at(i, j); };
-    Mat<S, rows, columns> out;
-    for (int j = 0; j < dim; ++j) combine(out, j, in, at(j, j), S(g.stretch[j]));
+    const auto add_to = [&](int to, int from, const S& factor) {
+      for (int r = lower ? to : 0; r < rows; ++r) out(r, to) += factor * in(r, from);
+    };
+    for (int j = 0; j < dim; ++j) add_to(j, at(j, j), S(g.stretch[j]));
     if constexpr (columns == variables) {
       for (int I = 0; I < modes; ++I)
         for (int j = 0; j < dim; ++j) {
           const int to = first_c + I * dim + j;
-          combine(out, to, in, at(j, j), S(g.q(I, j)));
+          add_to(to, at(j, j), S(g.q(I, j)));
           if constexpr (dim == 3)
             if (I == j)
               for (int k = 0; k < dim; ++k)
                 if (k != j) {
-                  const S half = S(0.5 * g.q(j, k));
-                  for (int r = 0; r < rows; ++r) out(r, to) += half * (in(r, at(j, k)) + in(r, at(k, j)));
+                  add_to(to, at(j, k), S(0.5 * g.q(j, k)));
+                  add_to(to, at(k, j), S(0.5 * g.q(j, k)));
                 }
         }
       for (int m = 0; m < dim; ++m)
         for (int n = 0; n < dim; ++n) {
           const int to = first_B + m * dim + n;
-          for (int r = 0; r < rows; ++r) out(r, to) = in(r, at(m, n));
-          for (int l = 0; l < dim; ++l) combine_add(out, to, in, at(n, l), S(-K(m, l)));
+          add_to(to, at(m, n), S(1));
+          for (int l = 0; l < dim; ++l) add_to(to, at(n, l), S(-K(m, l)));
         }
       if constexpr (Kinematics::hoop)
-        for (int a = 0; a < nodes; ++a) combine(out, first_hoop + a, in, at(2, 2), S(g.N_over_R[a]));
+        for (int a = 0; a < nodes; ++a) add_to(first_hoop + a, at(2, 2), S(g.N_over_R[a]));
     }
+  }
+
+  // What acts on the generalised variables but the stretches, in every row, as it acts on the vectors a_j and y_I by
+  // component, and on radial displacements.
+  template <int rows>
+  Mat<S, rows, of_vectors> on_vectors(const Mat<S, rows, of_u>& in) const {
+    Mat<S, rows, of_vectors> out;
+    const int B = modes * dim;
+    for (int j = 0; j < dim; ++j)
+      for (int i = 0; i < dim; ++i) {
+        const int to = j * dim + i;
+        combine(out, to, in, B + j, a_(i, 0));
+        for (int k = 1; k < dim; ++k) combine_add(out, to, in, B + k * dim + j, a_(i, k));
+        for (int I = 0; I < modes; ++I) combine_add(out, to, in, I * dim + j, y_(I, i));
+      }
+    for (int I = 0; I < modes; ++I)
+      for (int i = 0; i < dim; ++i) {
+        const int to = (dim + I) * dim + i;
+        combine(out, to, in, I * dim, a_(i, 0));
+        for (int j = 1; j < dim; ++j) combine_add(out, to, in, I * dim + j, a_(i, j));
+      }
+    if constexpr (Kinematics::hoop)
+      for (int a = 0; a < nodes; ++a) combine(out, (dim + modes) * dim + a, in, B + dim * dim + a, S(1));
+    return out;
+  }
+  // The same on nodal displacements. With `lower`, only rows from a column's node on.
+  template <bool lower = false, int rows>
+  Mat<S, rows, dofs> on_nodes(const Mat<S, rows, of_vectors>& in) const {
+    Mat<S, rows, dofs> out;
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < dim; ++i) {
+        const int to = a * dim + i, first = lower ? to : 0;
+        for (int r = first; r < rows; ++r) out(r, to) = S(geometry_.gradient(a, 0)) * in(r, i);
+        for (int j = 1; j < dim; ++j)
+          for (int r = first; r < rows; ++r) out(r, to) += S(geometry_.gradient(a, j)) * in(r, j * dim + i);
+        for (int I = 0; I < modes; ++I)
+          for (int r = first; r < rows; ++r) out(r, to) += S(geometry_.hourglass(a, I)) * in(r, (dim + I) * dim + i);
+        if constexpr (Kinematics::hoop)
+          if (i == 0)
+            for (int r = first; r < rows; ++r) out(r, to) += in(r, (dim + modes) * dim + a);
+      }
     return out;
   }
 
-  // Derivative of the generalised variables but the stretches by the nodal displacements.
-  Mat<S, of_u, dofs> variables_by_u() const {
-    Mat<S, of_u, dofs> P;
-    P.setZero();
-    for (int a = 0; a < nodes; ++a)
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j) {
-          const S beta = S(geometry_.gradient(a, j));
-          for (int I = 0; I < modes; ++I)
-            P(I * dim + j, a * dim + i) = y_(I, i) * beta + a_(i, j) * S(geometry_.hourglass(a, I));
-          for (int k = 0; k < dim; ++k) P(modes * dim + k * dim + j, a * dim + i) = a_(i, k) * beta;
-        }
-    if constexpr (Kinematics::hoop)
-      for (int a = 0; a < nodes; ++a) P(first_hoop - stretches + a, a * dim) = S(1);
-    return P;
-  }
-
   // Forces and derivatives by nodal displacements and stretches, from those by generalised variables; adds what the
-  // condensed dilatations bring (theory.md, eq. 2.21).
+  // condensed dilatations bring (theory.md, eq. 2.21). H is transposed; of a full symmetric one the lower triangle counts.
   template <Symmetry symmetry, bool full, int columns>
   void to_nodes(const Vec<S, dilatations>& theta, const Mat<S, columns, variables>& H, const Vec<S, variables>& r,
                 const Mat<S, variables, dilatations>& pL, const Mat<S, variables, dilatations>& pR,
                 const Mat<S, variables, dilatations>& t, const Mat<S, dilatations>& bulk) {
-    constexpr bool general = symmetry == Symmetry::general;
-    const Mat<S, of_u, dofs> P = variables_by_u();
-    const auto rest = [](const auto& m) {  // rows of what u determines
-      Mat<S, of_u, std::remove_cvref_t<decltype(m)>::ColsAtCompileTime> out;
-      for (int j = 0; j < m.cols(); ++j)
-        for (int i = 0; i < of_u; ++i) out(i, j) = m(stretches + i, j);
-      return out;
-    };
+    constexpr bool general = symmetry == Symmetry::general, lower = full && !general;
     // The relation of the dilatations. What is below round-off counts as zero: the bulk modulus would make forces of it.
     const Vec<S, dilatations> now = dilatations_now();
     const Real floor = roundoff();
@@ -449,68 +479,62 @@ class AssumedStrainKernel {
       theta_defect_[k] = now[k] - theta[k];
       if (std::abs(value_of(theta_defect_[k])) <= floor) theta_defect_[k] = S(0);
     }
-    // d force / d theta_k = pL_k, d pressure_k / d variables = pR_k, and through the projection t_k as well.
-    const auto with_bulk = [&](const Mat<S, variables, dilatations>& p) {
-      Mat<S, variables, dilatations> sum = p;
-      add(sum, product(t, bulk));  // bulk is symmetric
+    // K = H + pL t^T + t pR^T + t bulk t^T; half of the last with each of the others.
+    const Mat<S, variables, dilatations> t_bulk = product(t, bulk);
+    Mat<S, variables, dilatations> L = pL, R = pR;
+    add(L, t_bulk, S(0.5));
+    add(R, t_bulk, S(0.5));
+    const auto entry = [&](int i, int j) {  // derivative of force i by variable j
+      S sum = lower && i > j ? H(i, j) : H(j, i);
+      for (int k = 0; k < dilatations; ++k) sum += L(i, k) * t(j, k) + t(i, k) * R(j, k);
       return sum;
     };
-    const Mat<S, variables, dilatations> L = with_bulk(pL), R = general ? with_bulk(pR) : L;
-    t_u_ = transposed_product(P, rest(t));
-    const Mat<S, dofs, dilatations> L_u = transposed_product(P, rest(L));
-    const Vec<S, variables> excess = product(L, theta_defect_);
-    excess_ = product(L_u, theta_defect_);
-    f_u_ = transposed_product(P, rest(r));
-    for (int j = 0; j < stretches; ++j) {
-      f_a_[j] = r[j] + excess[j];
-      for (int k = 0; k < dilatations; ++k) t_a_(j, k) = t(j, k);
-    }
-    // K = H + pL t^T + t (pR + t bulk)^T.
-    Mat<S, variables, stretches> by_stretch;
-    for (int j = 0; j < stretches; ++j)
-      for (int i = 0; i < variables; ++i) {
-        S sum = H(j, i);
-        for (int k = 0; k < dilatations; ++k) sum += pL(i, k) * t(j, k) + t(i, k) * R(j, k);
-        by_stretch(i, j) = sum;
-        if (i < stretches) K_aa_(i, j) = sum;
+
+    // d force / d theta_k = pL_k + t_l bulk_lk.
+    Mat<S, 2 + dilatations + stretches, of_u> rows;
+    for (int i = 0; i < variables; ++i) {
+      S excess = S(0);
+      for (int k = 0; k < dilatations; ++k) excess += (pL(i, k) + t_bulk(i, k)) * theta_defect_[k];
+      if (i < stretches) {
+        f_a_[i] = r[i] + excess;
+        for (int k = 0; k < dilatations; ++k) t_a_(i, k) = t(i, k);
+        for (int j = 0; j < stretches; ++j) K_aa_(i, j) = entry(i, j);
+        continue;
       }
-    K_ua_ = transposed_product(P, rest(by_stretch));
-    for (int j = 0; j < stretches; ++j)
-      for (int i = 0; i < dofs; ++i) K_au_(j, i) = K_ua_(i, j);
+      rows(0, i - stretches) = r[i];
+      rows(1, i - stretches) = excess;
+      for (int k = 0; k < dilatations; ++k) rows(2 + k, i - stretches) = t(i, k);
+      for (int j = 0; j < stretches; ++j) rows(2 + dilatations + j, i - stretches) = entry(i, j);
+    }
+    const Mat<S, 2 + dilatations + stretches, dofs> nodal = on_nodes(on_vectors(rows));
+    for (int i = 0; i < dofs; ++i) {
+      f_u_[i] = nodal(0, i);
+      excess_[i] = nodal(1, i);
+      for (int k = 0; k < dilatations; ++k) t_u_(i, k) = nodal(2 + k, i);
+      for (int j = 0; j < stretches; ++j) K_au_(j, i) = K_ua_(i, j) = nodal(2 + dilatations + j, i);
+    }
     if constexpr (full) {
       if constexpr (general) {
-        Mat<S, of_u, stretches> rows;
+        Mat<S, stretches, of_u> by_u;
         for (int j = 0; j < stretches; ++j)
-          for (int i = 0; i < of_u; ++i) {
-            S sum = H(stretches + i, j);
-            for (int k = 0; k < dilatations; ++k) sum += pL(j, k) * t(stretches + i, k) + t(j, k) * R(stretches + i, k);
-            rows(i, j) = sum;
-          }
-        const Mat<S, dofs, stretches> transposed = transposed_product(P, rows);
-        for (int j = 0; j < stretches; ++j)
-          for (int i = 0; i < dofs; ++i) K_au_(j, i) = transposed(i, j);
+          for (int i = 0; i < of_u; ++i) by_u(j, i) = entry(j, stretches + i);
+        K_au_ = on_nodes(on_vectors(by_u));
       }
       Mat<S, of_u> square;
       for (int j = 0; j < of_u; ++j)
-        for (int i = 0; i < of_u; ++i) {
-          S sum = H(stretches + j, stretches + i);
-          for (int k = 0; k < dilatations; ++k)
-            sum += pL(stretches + i, k) * t(stretches + j, k) + t(stretches + i, k) * R(stretches + j, k);
-          square(i, j) = sum;
+        for (int i = lower ? j : 0; i < of_u; ++i) {
+          square(i, j) = entry(stretches + i, stretches + j);
+          if constexpr (lower) square(j, i) = square(i, j);
         }
-      K_uu_ = transposed_product(P, product(square, P));
+      Mat<S, of_vectors> K = on_vectors(transposed(on_vectors(square)));
       // c_Ij is bilinear in the displacements.
       for (int I = 0; I < modes; ++I)
-        for (int a = 0; a < nodes; ++a) {
-          S s = S(0);
-          for (int j = 0; j < dim; ++j) s += r[first_c + I * dim + j] * S(geometry_.gradient(a, j));
-          for (int b = 0; b < nodes; ++b)
-            for (int i = 0; i < dim; ++i) {
-              const S value = s * S(geometry_.hourglass(b, I));
-              K_uu_(a * dim + i, b * dim + i) += value;
-              K_uu_(b * dim + i, a * dim + i) += value;
-            }
-        }
+        for (int j = 0; j < dim; ++j)
+          for (int i = 0; i < dim; ++i) {
+            K(j * dim + i, (dim + I) * dim + i) += r[first_c + I * dim + j];
+            K((dim + I) * dim + i, j * dim + i) += r[first_c + I * dim + j];
+          }
+      K_uu_ = on_nodes<lower>(transposed(on_nodes(K)));
     }
   }
 
