@@ -165,7 +165,11 @@ class AssumedStrainKernel {
     for (std::size_t p = 0; p < points; ++p) {
       Point& point = point_[p];
       const auto& g = geometry_[p];
-      Moduli<S, TensorPattern> M = contravariant(contravariant(point.moduli));
+      Moduli<S, TensorPattern> M;
+      contravariant<!general>(point.moduli, M);
+      if constexpr (!general)
+        for (int b = 1; b < size; ++b)
+          for (int a = 0; a < b; ++a) M(a, b) = M(b, a);
       const Vec<S, size>&G = point.G, &N = point.N, &Q = point.stress;
       Vec<S, size> BL = product(M, G);
       add(BL, Q);
@@ -185,8 +189,8 @@ class AssumedStrainKernel {
         v(2, a) = N[a];
         if constexpr (general) v(3, a) = (BR[a] - eta / Real(3) * N[a]) / Real(3);
       }
-      Mat<S, vectors, variables> w = Mat<S, vectors, variables>::Zero();
-      pull<variables, false>(g, point.K, v, w);
+      Mat<S, vectors, variables> w;
+      pull<variables, Into::all>(g, point.K, v, w);
       for (int i = 0; i < variables; ++i) {
         r[i] += w(0, i);
         for (int k = 0; k < dilatations; ++k) {
@@ -208,17 +212,17 @@ class AssumedStrainKernel {
       }
       for (int b = 0; b < size; ++b) {
         const auto [m, n] = TensorPattern::pairs[std::size_t(b)];
-        for (int a = 0; a < size; ++a) {
+        for (int a = general ? 0 : b; a < size; ++a) {
           const auto [k, l] = TensorPattern::pairs[std::size_t(a)];
           M(a, b) -= left[a] * N[b] + N[a] * right[b];
           if (TensorPattern::couples(l, m) && TensorPattern::couples(n, k))
             M(a, b) += swirl * N[TensorPattern::at(l, m)] * N[TensorPattern::at(n, k)];
+          if constexpr (!general) M(b, a) = M(a, b);
         }
       }
-      Mat<S, size, columns> Y = Mat<S, size, columns>::Zero();
-      pull<columns, false>(g, point.K, M, Y);
-      const Mat<S, columns, size> Yt = transposed(Y);
-      pull<variables, full && !general>(g, point.K, Yt, H);
+      Mat<S, size, columns> Y;
+      pull<columns, Into::all>(g, point.K, M, Y);
+      pull<variables, full && !general ? Into::lower_sum : Into::sum>(g, point.K, transposed(Y), H);
 
       Mat<S, dim> stress;
       for (int i = 0; i < dim; ++i)
@@ -343,33 +347,39 @@ class AssumedStrainKernel {
     return std::isfinite(value_of(det)) && std::abs(value_of(det)) > 1e-12 * scale;
   }
 
-  // Contravariant components, in every row: S^kl = a^k . S . g^l.
-  template <int rows>
-  Mat<S, rows, size> contravariant_rows(const Mat<S, rows, size>& in) const {
-    Mat<S, rows, size> half = in, out = in;  // the normal component in the plane stays
+  // Contravariant components, in every row: S^kl = a^k . S . g^l. With `lower`, only rows from a column's own number on.
+  template <bool lower, int rows>
+  void contravariant_rows(const Mat<S, rows, size>& in, Mat<S, rows, size>& out) const {
+    Mat<S, rows, size> half;
     for (int k = 0; k < dim; ++k)
       for (int J = 0; J < dim; ++J) {
-        combine(half, TensorPattern::at(k, J), in, TensorPattern::at(0, J), a_inverse_(k, 0));
-        for (int i = 1; i < dim; ++i) combine_add(half, TensorPattern::at(k, J), in, TensorPattern::at(i, J), a_inverse_(k, i));
+        const int to = TensorPattern::at(k, J), first = lower ? TensorPattern::at(k, 0) : 0;
+        for (int r = first; r < rows; ++r) half(r, to) = a_inverse_(k, 0) * in(r, TensorPattern::at(0, J));
+        for (int i = 1; i < dim; ++i)
+          for (int r = first; r < rows; ++r) half(r, to) += a_inverse_(k, i) * in(r, TensorPattern::at(i, J));
       }
     for (int k = 0; k < dim; ++k)
       for (int l = 0; l < dim; ++l) {
-        combine(out, TensorPattern::at(k, l), half, TensorPattern::at(k, 0), dual_(l, 0));
-        for (int J = 1; J < dim; ++J) combine_add(out, TensorPattern::at(k, l), half, TensorPattern::at(k, J), dual_(l, J));
+        const int to = TensorPattern::at(k, l), first = lower ? to : 0;
+        for (int r = first; r < rows; ++r) out(r, to) = dual_(l, 0) * half(r, TensorPattern::at(k, 0));
+        for (int J = 1; J < dim; ++J)
+          for (int r = first; r < rows; ++r) out(r, to) += dual_(l, J) * half(r, TensorPattern::at(k, J));
       }
-    return out;
+    if constexpr (dim == 2)  // the normal component stays
+      for (int r = 0; r < rows; ++r) out(r, TensorPattern::at(2, 2)) = in(r, TensorPattern::at(2, 2));
   }
   Vec<S, size> contravariant(const Vec<S, size>& v) const {
-    Mat<S, 1, size> row;
-    for (int a = 0; a < size; ++a) row(0, a) = v[a];
-    row = contravariant_rows(row);
-    Vec<S, size> r;
-    for (int a = 0; a < size; ++a) r[a] = row(0, a);
-    return r;
+    Mat<S, 1, size> out;
+    contravariant_rows<false>(transposed(v), out);
+    return transposed(out);
   }
-  // Of one index pair, and transposed: twice it is both pairs.
-  Moduli<S, TensorPattern> contravariant(const Moduli<S, TensorPattern>& m) const {
-    return transposed(contravariant_rows(m));
+  // Of both index pairs; of a symmetric one the lower triangle.
+  template <bool symmetric>
+  void contravariant(const Moduli<S, TensorPattern>& m, Moduli<S, TensorPattern>& out) const {
+    Moduli<S, TensorPattern> half;
+    contravariant_rows<false>(m, half);
+    contravariant_rows<symmetric>(transposed(half), out);  // transposed
+    if constexpr (!symmetric) out = transposed(out);
   }
 
   template <int rows, int c1, int c2>
@@ -389,21 +399,30 @@ class AssumedStrainKernel {
     return r;
   }
 
-  // Adds what acts on G at a point, in every row, as it acts on the first `columns` generalised variables (theory.md,
-  // eq. 2.18). With `lower`, only rows from a column's own number on.
-  template <int columns, bool lower, int rows>
+  // Whether a result is put in the place of what was there, or added to it, and to all rows or only to those from a
+  // column's own number on.
+  enum class Into { all, sum, lower_sum };
+  // What acts on G at a point, in every row, as it acts on the first `columns` generalised variables (theory.md, eq.
+  // 2.18).
+  template <int columns, Into into, int rows>
   static void pull(const typename Geometry::Point& g, const Mat<S, dim>& K, const Mat<S, rows, size>& in,
                    Mat<S, rows, columns>& out) {
     const auto at = [](int i, int j) { return TensorPattern::at(i, j); };
     const auto add_to = [&](int to, int from, const S& factor) {
-      for (int r = lower ? to : 0; r < rows; ++r) out(r, to) += factor * in(r, from);
+      for (int r = into == Into::lower_sum ? to : 0; r < rows; ++r) out(r, to) += factor * in(r, from);
     };
-    for (int j = 0; j < dim; ++j) add_to(j, at(j, j), S(g.stretch[j]));
+    const auto first_to = [&](int to, int from, const S& factor) {
+      if constexpr (into == Into::all)
+        for (int r = 0; r < rows; ++r) out(r, to) = factor * in(r, from);
+      else
+        add_to(to, from, factor);
+    };
+    for (int j = 0; j < dim; ++j) first_to(j, at(j, j), S(g.stretch[j]));
     if constexpr (columns == variables) {
       for (int I = 0; I < modes; ++I)
         for (int j = 0; j < dim; ++j) {
           const int to = first_c + I * dim + j;
-          add_to(to, at(j, j), S(g.q(I, j)));
+          first_to(to, at(j, j), S(g.q(I, j)));
           if constexpr (dim == 3)
             if (I == j)
               for (int k = 0; k < dim; ++k)
@@ -415,11 +434,11 @@ class AssumedStrainKernel {
       for (int m = 0; m < dim; ++m)
         for (int n = 0; n < dim; ++n) {
           const int to = first_B + m * dim + n;
-          add_to(to, at(m, n), S(1));
+          first_to(to, at(m, n), S(1));
           for (int l = 0; l < dim; ++l) add_to(to, at(n, l), S(-K(m, l)));
         }
       if constexpr (Kinematics::hoop)
-        for (int a = 0; a < nodes; ++a) add_to(first_hoop + a, at(2, 2), S(g.N_over_R[a]));
+        for (int a = 0; a < nodes; ++a) first_to(first_hoop + a, at(2, 2), S(g.N_over_R[a]));
     }
   }
 
