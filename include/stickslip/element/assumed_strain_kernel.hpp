@@ -409,7 +409,7 @@ class AssumedStrainKernel {
                    Mat<S, rows, columns>& out) {
     const auto at = [](int i, int j) { return TensorPattern::at(i, j); };
     const auto add_to = [&](int to, int from, const S& factor) {
-      for (int r = into == Into::lower_sum ? to : 0; r < rows; ++r) out(r, to) += factor * in(r, from);
+      for (int r = into == Into::lower_sum && rows > 12 ? to : 0; r < rows; ++r) out(r, to) += factor * in(r, from);
     };
     const auto first_to = [&](int to, int from, const S& factor) {
       if constexpr (into == Into::all)
