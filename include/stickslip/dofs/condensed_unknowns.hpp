@@ -22,7 +22,11 @@ class CondensedUnknowns {
   static constexpr Real merit_weight = 0.05;
 
   explicit CondensedUnknowns(std::size_t count = 0)
-      : now_(count), converged_(count, Unknown::zero()), start_(converged_), step_(converged_), increment_(converged_) {}
+      : now_(count),
+        converged_(count, Unknown::zero()),
+        start_(converged_),
+        step_(converged_),
+        increment_(converged_) {}
 
   Unknown& operator[](std::size_t k) { return now_[k]; }
   const Unknown& operator[](std::size_t k) const { return now_[k]; }

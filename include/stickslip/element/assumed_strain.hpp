@@ -17,9 +17,9 @@
 namespace stickslip {
 
 /// Element for bending: of the shears that vary in the element only the twist is kept, stretches that are linear along
-/// their own direction are added, and the dilatation is linear (theory.md, eq. 2.14-2.22). Stretches and dilatations are
-/// condensed unknowns. Forces and tangent are derivatives of one potential, so the tangent is symmetric whenever the
-/// material's is. No parameter is tuned.
+/// their own direction are added, and the dilatation is linear (theory.md, eq. 2.14-2.22). Stretches and dilatations
+/// are condensed unknowns. Forces and tangent are derivatives of one potential, so the tangent is symmetric whenever
+/// the material's is. No parameter is tuned.
 template <class Cell_ = Quad4>
 struct AssumedStrain {
   using Role = role::Element;

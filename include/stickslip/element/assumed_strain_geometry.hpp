@@ -18,20 +18,20 @@ struct AssumedStrainGeometry {
   static constexpr int modes = nodes - dim - 1;  ///< products of reference coordinates in the shape functions
 
   struct Point {
-    Mat<Real, modes, dim> q;       ///< g_j . grad h_I', by mode I and direction j [-]
-    Vec<Real, dim> stretch;        ///< phi_j |g_j|^2 [length^2]
-    Vec<Real, dim + 1> dilatation; ///< chi_k over the root of its mean square [-]
+    Mat<Real, modes, dim> q;        ///< g_j . grad h_I', by mode I and direction j [-]
+    Vec<Real, dim> stretch;         ///< phi_j |g_j|^2 [length^2]
+    Vec<Real, dim + 1> dilatation;  ///< chi_k over the root of its mean square [-]
     [[no_unique_address]] StoredIf<Kinematics::hoop, Vec<Real, nodes>, struct HoopTag>
         N_over_R;  ///< hoop operator [1/length]
     Real weight;   ///< reference volume that the point stands for [length^3]
   };
 
-  Mat<Real, nodes, dim> gradient;  ///< <grad N_a> . g_j [-]
+  Mat<Real, nodes, dim> gradient;     ///< <grad N_a> . g_j [-]
   Mat<Real, nodes, modes> hourglass;  ///< gamma_Ia [-]
-  Mat<Real, dim> base;             ///< columns g_j: derivatives of the place at the centre [length]
-  Mat<Real, dim> dual;             ///< its inverse, rows g^j [1/length]
-  Real volume = 0;                 ///< [length^3]
-  Real steepest = 0;               ///< largest component of a shape function's gradient [1/length]
+  Mat<Real, dim> base;                ///< columns g_j: derivatives of the place at the centre [length]
+  Mat<Real, dim> dual;                ///< its inverse, rows g^j [1/length]
+  Real volume = 0;                    ///< [length^3]
+  Real steepest = 0;                  ///< largest component of a shape function's gradient [1/length]
   std::array<Point, points> at;
 
   const Point& operator[](std::size_t p) const { return at[p]; }

@@ -331,9 +331,7 @@ class AssumedStrainKernel {
   };
 
   // Weight of ln J of a point in dilatation k.
-  Real share(std::size_t p, int k) const {
-    return geometry_[p].weight * geometry_[p].dilatation[k] / geometry_.volume;
-  }
+  Real share(std::size_t p, int k) const { return geometry_[p].weight * geometry_[p].dilatation[k] / geometry_.volume; }
 
   static Mat<S, dim> sum(const Mat<S, dim>& a, const Mat<S, dim>& b) {
     Mat<S, dim> r = a;
@@ -347,7 +345,8 @@ class AssumedStrainKernel {
     return std::isfinite(value_of(det)) && std::abs(value_of(det)) > 1e-12 * scale;
   }
 
-  // Contravariant components, in every row: S^kl = a^k . S . g^l. With `lower`, only rows from a column's own number on.
+  // Contravariant components, in every row: S^kl = a^k . S . g^l. With `lower`, only rows from a column's own number
+  // on.
   template <bool lower, int rows>
   void contravariant_rows(const Mat<S, rows, size>& in, Mat<S, rows, size>& out) const {
     Mat<S, rows, size> half;
@@ -485,13 +484,15 @@ class AssumedStrainKernel {
   }
 
   // Forces and derivatives by nodal displacements and stretches, from those by generalised variables; adds what the
-  // condensed dilatations bring (theory.md, eq. 2.21). H is transposed; of a full symmetric one the lower triangle counts.
+  // condensed dilatations bring (theory.md, eq. 2.21). H is transposed; of a full symmetric one the lower triangle
+  // counts.
   template <Symmetry symmetry, bool full, int columns>
   void to_nodes(const Vec<S, dilatations>& theta, const Mat<S, columns, variables>& H, const Vec<S, variables>& r,
                 const Mat<S, variables, dilatations>& pL, const Mat<S, variables, dilatations>& pR,
                 const Mat<S, variables, dilatations>& t, const Mat<S, dilatations>& bulk) {
     constexpr bool general = symmetry == Symmetry::general, lower = full && !general;
-    // The relation of the dilatations. What is below round-off counts as zero: the bulk modulus would make forces of it.
+    // The relation of the dilatations. What is below round-off counts as zero: the bulk modulus would make forces of
+    // it.
     const Vec<S, dilatations> now = dilatations_now();
     const Real floor = roundoff();
     for (int k = 0; k < dilatations; ++k) {

@@ -15,7 +15,7 @@ template <class Cell_ = Quad4>
 struct FullyIntegrated {
   using Role = role::Element;
   using Cell = Cell_;
-  static constexpr bool takes_want = true;
+  static constexpr bool takes_want = true, locks_in_bending = true;
   static constexpr int dim = Cell::dim, nodes = Cell::nodes, points = Cell::points;
 
   template <class Kinematics>

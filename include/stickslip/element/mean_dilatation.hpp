@@ -22,7 +22,7 @@ struct MeanDilatation {
   using Role = role::Element;
   using Cell = Cell_;
   static constexpr int condensed_unknowns = 1;  ///< ln theta
-  static constexpr bool takes_want = true;
+  static constexpr bool takes_want = true, locks_in_bending = true;
   static constexpr int dim = Cell::dim, nodes = Cell::nodes, points = Cell::points, dofs = nodes * dim;
 
   template <class Kinematics>

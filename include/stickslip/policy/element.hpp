@@ -70,10 +70,11 @@ auto quadrature_of() {
   return detail::force_quadrature<E>();
 }
 
-/// Geometry of an element from its nodes' reference coordinates (one row a node): what the element makes itself, or that
-/// of its points.
+/// Geometry of an element from its nodes' reference coordinates (one row a node): what the element makes itself, or
+/// that of its points.
 template <class E, class Kinematics>
-typename E::template Geometry<Kinematics> geometry_of(const Kinematics& kinematics, const Mat<Real, E::nodes, E::dim>& X) {
+typename E::template Geometry<Kinematics> geometry_of(const Kinematics& kinematics,
+                                                      const Mat<Real, E::nodes, E::dim>& X) {
   if constexpr (requires { E::geometry(kinematics, X); }) {
     return E::geometry(kinematics, X);
   } else {
@@ -114,8 +115,8 @@ inline constexpr bool takes_want = requires {
   requires E::takes_want;
 };
 
-/// Evaluates an element, with the skills that it has. `condensed` is nothing, or a CondensedUnknown<S, dofs, count>& and
-/// a Relation.
+/// Evaluates an element, with the skills that it has. `condensed` is nothing, or a CondensedUnknown<S, dofs, count>&
+/// and a Relation.
 template <class Element, class Geometry, class Material, class Vector, class States, class Result, class... Condensed>
 FailureCause evaluate_element(const Geometry& geometry, const Material& material, const Vector& u, const States& old,
                               Real dt, Result& out, [[maybe_unused]] Want want, Condensed&&... condensed) {

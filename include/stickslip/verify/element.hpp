@@ -59,7 +59,8 @@ struct SingleElement {
 
   /// Deformation gradients that the material sees at the displacements u.
   template <class S>
-  auto deformation(const Vec<S, dofs>& u, [[maybe_unused]] const Memory<S>& old = {}, [[maybe_unused]] Real dt = 1) const {
+  auto deformation(const Vec<S, dofs>& u, [[maybe_unused]] const Memory<S>& old = {},
+                   [[maybe_unused]] Real dt = 1) const {
     if constexpr (unknowns > 0) {
       Condensed<S> condensed;
       evaluate(u, old, dt, Relation::closed, condensed);

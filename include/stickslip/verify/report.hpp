@@ -92,8 +92,8 @@ struct RelationReport {
 /// Checks the condensed unknowns of at(x, value) -> RelationSample. Where their relation is no explicit function of the
 /// place, `residual` and `gradient` being those of its linearisation, `gradient` of the report is 0.
 template <int n, int m = 1, class At>
-RelationReport relation_report(const Vec<Real, n>& x, const typename CondensedUnknown<Real, n, m>::Value& value, Real step,
-                               Real value_step, At&& at, bool explicit_relation = true) {
+RelationReport relation_report(const Vec<Real, n>& x, const typename CondensedUnknown<Real, n, m>::Value& value,
+                               Real step, Real value_step, At&& at, bool explicit_relation = true) {
   using Value = typename CondensedUnknown<Real, n, m>::Value;
   const auto vector = [](const Value& v) {
     Vec<Real, m> r;
@@ -110,13 +110,13 @@ RelationReport relation_report(const Vec<Real, n>& x, const typename CondensedUn
       return v;
   };
   const RelationSample<n, m> now = at(x, value);
-  const Mat<Real, n, m> by_value = differentiate<n, m>(
-      vector(value), value_step, [&](const Vec<Real, m>& v) { return at(x, of_vector(v)).force; });
+  const Mat<Real, n, m> by_value =
+      differentiate<n, m>(vector(value), value_step, [&](const Vec<Real, m>& v) { return at(x, of_vector(v)).force; });
   const Mat<Real, n> by_place = differentiate<n, n>(x, step, [&](const Vec<Real, n>& y) { return at(y, value).force; });
   RelationReport report;
   if (explicit_relation) {
-    const Mat<Real, m, n> slope = differentiate<m, n>(
-        x, step, [&](const Vec<Real, n>& y) { return vector(at(y, value).relation.residual); });
+    const Mat<Real, m, n> slope =
+        differentiate<m, n>(x, step, [&](const Vec<Real, n>& y) { return vector(at(y, value).relation.residual); });
     report.gradient = relative_error(now.relation.gradient.transpose(), slope);
   }
   const Mat<Real, m, n> gradient = now.relation.gradient.transpose();
