@@ -5,6 +5,7 @@
 #include "options.hpp"
 
 #include <stickslip/element/assumed_strain.hpp>
+#include <stickslip/friction/coulomb.hpp>
 #include <stickslip/run_time.hpp>
 
 #include <algorithm>
