@@ -79,24 +79,26 @@ int extrude(const examples::Options& options) {
 int main(int argc, char** argv) {
   constexpr auto frictions = examples::coulomb_laws;
   using examples::AllSolvers;
-  const examples::Program program {
-    .name = "conical_extrusion", .title = "a billet pushed into a rigid cone", .frictions = frictions.list(),
-    .solvers = AllSolvers::solvers().names(), .mu = 0.1, .tolerance = 1e-4,
-    .parameters = {{.name = "half-angle", .about = "of the cone, in degrees", .value = 5, .low = 0.5, .high = 30},
-                   {.name = "die", .about = "the wall", .value = 0, .names = {"unbounded", "container"}},
-                   {.name = "fillet",
-                    .about = "radius of the joint of container and cone, in mm",
-                    .value = 10,
-                    .low = 0.1,
-                    .high = 1000}},
-    examples::element_option()
-  }
-};
-return examples::guarded(program.name, [&] {
-  const auto options = examples::parse(argc, argv, program);
-  if (!options) return 0;
-  if (options->list) return examples::print_list<Extrusion, AllSolvers>(frictions);
-  return examples::dispatch_element<Extrusion, AllSolvers>(*options, frictions,
-                                                           [&]<class Model>() { return extrude<Model>(*options); });
-});
+  const examples::Program program{
+      .name = "conical_extrusion",
+      .title = "a billet pushed into a rigid cone",
+      .frictions = frictions.list(),
+      .solvers = AllSolvers::solvers().names(),
+      .mu = 0.1,
+      .tolerance = 1e-4,
+      .parameters = {{.name = "half-angle", .about = "of the cone, in degrees", .value = 5, .low = 0.5, .high = 30},
+                     {.name = "die", .about = "the wall", .value = 0, .names = {"unbounded", "container"}},
+                     {.name = "fillet",
+                      .about = "radius of the joint of container and cone, in mm",
+                      .value = 10,
+                      .low = 0.1,
+                      .high = 1000},
+                     examples::element_option()}};
+  return examples::guarded(program.name, [&] {
+    const auto options = examples::parse(argc, argv, program);
+    if (!options) return 0;
+    if (options->list) return examples::print_list<Extrusion, AllSolvers>(frictions);
+    return examples::dispatch_element<Extrusion, AllSolvers>(*options, frictions,
+                                                             [&]<class Model>() { return extrude<Model>(*options); });
+  });
 }

@@ -80,30 +80,32 @@ int invert(const examples::Options& options) {
 int main(int argc, char** argv) {
   constexpr auto frictions = examples::coulomb_laws;
   using examples::AllSolvers;
-  const examples::Program program {
-    .name = "shock_absorber", .title = "a tube turned inside out by a die, in implicit dynamics",
-    .frictions = frictions.list(), .solvers = AllSolvers::solvers().names(), .mu = 0.15, .tolerance = 1e-2,
-    .parameters =
-        {{.name = "arc-angle", .about = "of the die's circle, in degrees", .value = 90, .low = 30, .high = 180},
-         {.name = "yield-scale",
-          .about = "factor on the flow stress; 9.80665 if the paper meant kgf/mm2",
-          .value = 1,
-          .low = 0.1,
-          .high = 100},
-         {.name = "start-velocity", .about = "of the whole tube", .value = 0, .names = {"on", "off"}},
-         {.name = "spectral-radius",
-          .about = "of the time scheme at infinite frequency",
-          .value = 0,
-          .low = 0,
-          .high = 1}},
-    examples::element_option()
-  }
-};
-return examples::guarded(program.name, [&] {
-  const auto options = examples::parse(argc, argv, program);
-  if (!options) return 0;
-  if (options->list) return examples::print_list<Tube, AllSolvers>(frictions);
-  return examples::dispatch_element<Tube, AllSolvers>(*options, frictions,
-                                                      [&]<class Model>() { return invert<Model>(*options); });
-});
+  const examples::Program program{
+      .name = "shock_absorber",
+      .title = "a tube turned inside out by a die, in implicit dynamics",
+      .frictions = frictions.list(),
+      .solvers = AllSolvers::solvers().names(),
+      .mu = 0.15,
+      .tolerance = 1e-2,
+      .parameters = {
+          {.name = "arc-angle", .about = "of the die's circle, in degrees", .value = 90, .low = 30, .high = 180},
+          {.name = "yield-scale",
+           .about = "factor on the flow stress; 9.80665 if the paper meant kgf/mm2",
+           .value = 1,
+           .low = 0.1,
+           .high = 100},
+          {.name = "start-velocity", .about = "of the whole tube", .value = 0, .names = {"on", "off"}},
+          {.name = "spectral-radius",
+           .about = "of the time scheme at infinite frequency",
+           .value = 0,
+           .low = 0,
+           .high = 1},
+          examples::element_option()}};
+  return examples::guarded(program.name, [&] {
+    const auto options = examples::parse(argc, argv, program);
+    if (!options) return 0;
+    if (options->list) return examples::print_list<Tube, AllSolvers>(frictions);
+    return examples::dispatch_element<Tube, AllSolvers>(*options, frictions,
+                                                        [&]<class Model>() { return invert<Model>(*options); });
+  });
 }
