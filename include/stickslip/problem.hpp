@@ -109,7 +109,7 @@ class March : public RunState {
   Index state_;  // revision of the converged state that the next step starts from
   Newton<SolverOf<Model>, has_inexact_tangent<Model>(), typename System<Mechanical>::Space> newton_;
   Field trial_, driven_, outer_guess_;
-  std::unique_ptr<StressRecoveries<Mechanical>> stress_;  // where the mesh's error is asked for
+  std::unique_ptr<StressRecoveries<Bodies<Mechanical>>> stress_;  // where the mesh's error is asked for
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
   using Gain = std::optional<EnergyGain<Mechanical, Scene<Mechanical>>>;
   [[no_unique_address]] StoredIf<keeps_energy, Gain, March> gain_;  // to see what the time scheme gains
@@ -160,7 +160,7 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options, const 
                             .line_search = options.line_search},
               solver) {
   if constexpr (has_outer_iterations<Model>() || has_lag<Model>()) outer_guess_ = problem.u_;
-  if (options.mesh_error_interval > 0) stress_ = std::make_unique<StressRecoveries<Mechanical>>(problem.bodies_);
+  if (options.mesh_error_interval > 0) stress_ = std::make_unique<StressRecoveries<Bodies<Mechanical>>>(problem.bodies_);
   problem_.prepare();
   problem_.bodies_.for_each([&](const auto& body) {
     if (const auto apart = mesh::coincident_nodes(body.mesh()); apart.nodes > 0)
