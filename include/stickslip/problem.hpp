@@ -164,13 +164,7 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options, const 
   problem_.prepare();
   problem_.bodies_.for_each([&](const auto& body) {
     if (const auto apart = mesh::coincident_nodes(body.mesh()); apart.nodes > 0)
-      now_.warnings.add("coincident_nodes", body.name(),
-                        std::to_string(apart.nodes) + " nodes of the mesh" +
-                            (body.name().empty() ? "" : " of body \"" + body.name() + "\"") +
-                            " lie where another one does, nodes " + std::to_string(apart.first[0]) + " and " +
-                            std::to_string(apart.first[1]) +
-                            " (from 0) among them: what was meshed in blocks that were not joined comes apart there",
-                        0);
+      now_.warnings.add("coincident_nodes", body.name(), mesh::in_words(apart, body.name()), 0);
   });
   problem_.require_agreement(options.end);
   if constexpr (has_contact<Model>)
@@ -304,9 +298,9 @@ void March<Model>::watch_energy([[maybe_unused]] const StepReport& step) {
     gain_->update(step);
     const Real gain = gain_->gain();
     if (!(gain > options_.energy_gain)) return;
-    gained_ = "the time scheme has gained " + brief(gain, 2) +
-              " of the largest of the work done and the energy at the start; take smaller steps, or a spectral radius "
-              "below 1";
+    gained_ = joined({"the time scheme has gained ", brief(gain, 2),
+                      " of the largest of the work done and the energy at the start; take smaller steps, or a spectral "
+                      "radius below 1"});
     warn("energy_gained", "", gained_);
   }
 }
@@ -494,12 +488,13 @@ void March<Model>::advance() {
         problem_.accept(u, time, dt);
         state_ = problem_.revision_;
         watch_energy(step);
-        complete_step(step, tried.first_iterations, error, [&] {
-          if (!stress_ || now_.report.steps % options_.mesh_error_interval != 0) return now_.step.errors.space;
+        Real mesh_error = now_.step.errors.space;
+        if (stress_ && now_.report.steps % options_.mesh_error_interval == 0) {
           const Stopwatch watch(system.timings.estimates);
           stress_->update(problem_.bodies_, u);
-          return stress_->relative();
-        });
+          mesh_error = stress_->relative();
+        }
+        complete_step(step, tried.first_iterations, error, mesh_error);
         return;
       }
       ++rejected;

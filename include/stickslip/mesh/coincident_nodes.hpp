@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace stickslip::mesh {
@@ -18,6 +19,14 @@ struct Coincidence {
   Index nodes = 0;               ///< number of nodes beyond one per position; 0: none
   std::array<Index, 2> first{};  ///< two coincident nodes
 };
+
+/// What a user is told of those of a body.
+[[gnu::cold]] inline std::string in_words(const Coincidence& apart, const std::string& body) {
+  return std::to_string(apart.nodes) + " nodes of the mesh" + (body.empty() ? "" : " of body \"" + body + "\"") +
+         " lie where another one does, nodes " + std::to_string(apart.first[0]) + " and " +
+         std::to_string(apart.first[1]) +
+         " (from 0) among them: what was meshed in blocks that were not joined comes apart there";
+}
 
 /// Finds nodes closer to each other than `tolerance` times the mesh's size: blocks that were meshed separately and
 /// never merged come apart at their interface, although their cell lists are valid.
