@@ -151,7 +151,7 @@ class Problem : public detail::SceneOf<Model>::type {
 };
 
 template <class Model>
-March<Model>::March(Problem<Model>& problem, const MarchOptions& options, const SolverParametersOf<Model>& solver)
+[[gnu::cold]] March<Model>::March(Problem<Model>& problem, const MarchOptions& options, const SolverParametersOf<Model>& solver)
     : RunState(options, problem.time_),
       problem_(problem),
       state_(problem.revision_),
@@ -306,7 +306,7 @@ void March<Model>::watch_energy([[maybe_unused]] const StepReport& step) {
 }
 
 template <class Model>
-void March<Model>::serialize(Archive& archive) {
+[[gnu::cold]] void March<Model>::serialize(Archive& archive) {
   problem_.prepare();
   problem_.serialize(archive);
   if (archive.loading()) state_ = problem_.revision_;
@@ -403,7 +403,7 @@ typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field&
 
 /// The reason why no step is small enough, by name where the scene tells it. Spoils the last evaluation.
 template <class Model>
-typename March<Model>::Reason March<Model>::explain(Failure failure, Real time, [[maybe_unused]] Real dt) {
+[[gnu::cold]] typename March<Model>::Reason March<Model>::explain(Failure failure, Real time, [[maybe_unused]] Real dt) {
   System<Mechanical>& system = *problem_.system_;
   Diagnosis<Mechanical>& diagnosis = *problem_.diagnosis_;
   if (failure.cause == FailureCause::contradicting_supports) return {failure, system.prescribed().contradiction(time)};

@@ -68,7 +68,7 @@ class Scene {
   using Parameters = detail::SceneParameters<Model, Scene>;
 
   /// Throws std::invalid_argument, naming the input, before anything is computed.
-  explicit Scene(Parameters parameters)
+  [[gnu::cold]] explicit Scene(Parameters parameters)
       : bodies_(std::move(parameters).descriptions(), validated(parameters.kinematics)),
         terms_(std::move(parameters.terms)) {
     if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
@@ -91,7 +91,7 @@ class Scene {
   Scene& hold(const std::string& side, Index component) { return drive(side, component, nullptr); }
   /// Drives a displacement component of a side: value(time) [length]. Throws std::invalid_argument where another
   /// support prescribes another value of the component at a node now.
-  Scene& drive(const std::string& side, Index component, std::function<Real(Real)> value) {
+  [[gnu::cold]] Scene& drive(const std::string& side, Index component, std::function<Real(Real)> value) {
     driven_.push_back(checked({side, component, std::move(value)}));
     Prescribed supports(dim, bodies_.extent());
     for (const SideValue& d : driven_) supports.drive(d, bodies_.side_nodes(d.side));
@@ -102,7 +102,7 @@ class Scene {
     return *this;
   }
   /// Takes the supports of a side in one component away: what `hold` and `drive` on that side gave.
-  Scene& release(const std::string& side, Index component) {
+  [[gnu::cold]] Scene& release(const std::string& side, Index component) {
     require_component(side, component);
     if (std::erase_if(driven_, [&](const SideValue& d) { return d.side == side && d.component == component; }) == 0)
       throw std::invalid_argument("release of side \"" + side + "\": it has no support in component " +
@@ -113,7 +113,7 @@ class Scene {
   /// Makes a component of a node depend on others: u_dependent = sum of weight * u_master + offset(time), components
   /// counted node * dim + i over all bodies. Where that contradicts supports or another constraint, the next march
   /// throws std::invalid_argument.
-  Scene& constrain(LinearConstraint constraint) {
+  [[gnu::cold]] Scene& constrain(LinearConstraint constraint) {
     for (const IndexMap::Weighted& m : constraint.dependent.masters) require_exists(m.index);
     require_exists(constraint.dependent.component);
     constraints_.push_back(std::move(constraint));
@@ -121,7 +121,7 @@ class Scene {
     return *this;
   }
   /// Loads a side with a total dead force in one component, spread over its reference area: value(time) [force].
-  Scene& load(const std::string& side, Index component, std::function<Real(Real)> value) {
+  [[gnu::cold]] Scene& load(const std::string& side, Index component, std::function<Real(Real)> value) {
     if (!value) throw std::invalid_argument("load on side \"" + side + "\": needs a function of time");
     if (!bodies_.side_has_facets(side))
       throw std::invalid_argument("load on side \"" + side + "\": the side has no facets to spread it over");
@@ -207,7 +207,7 @@ class Scene {
   friend class March;
 
   // Makes the discrete system, unless supports and loads are the same as before, and at time 0 the state to start from.
-  void prepare() {
+  [[gnu::cold]] void prepare() {
     if (system_ && !changed_) return;
     const Timings spent = system_ ? system_->timings : Timings{};
     const Index revision_of_pattern = system_ ? system_->pattern_revision() : numberings_;
@@ -232,14 +232,14 @@ class Scene {
   }
 
   // Throws where two supports contradict each other on the way to a time, as far as a look at some times tells.
-  void require_agreement(Real end) const {
+  [[gnu::cold]] void require_agreement(Real end) const {
     constexpr int looks = 64;
     for (int k = 0; k <= looks; ++k)
       if (const std::string fault = system_->prescribed().contradiction(time_ + (end - time_) * k / looks);
           !fault.empty())
         refuse_supports(fault);
   }
-  [[noreturn]] static void refuse_supports(const std::string& fault) {
+  [[noreturn, gnu::cold]] static void refuse_supports(const std::string& fault) {
     throw std::invalid_argument("two supports contradict each other: " + fault +
                                 "; release() takes a side's supports away");
   }
@@ -277,7 +277,7 @@ class Scene {
   }
 
   // What the scene is of, and its converged state.
-  void serialize(Archive& archive) {
+  [[gnu::cold]] void serialize(Archive& archive) {
     archive.check_equal("kinematics", type_name<typename Model::Kinematics>());
     bodies_.for_each([&](const auto& body) {
       using BodyType = std::remove_cvref_t<decltype(body)>;
@@ -353,7 +353,7 @@ class Scene {
     if (component < 0 || component >= dim)
       throw std::invalid_argument("side \"" + side + "\": there is no component " + std::to_string(component));
   }
-  SideValue checked(SideValue value) {
+  [[gnu::cold]] SideValue checked(SideValue value) {
     if (bodies_.side_nodes(value.side).empty()) throw std::invalid_argument("side \"" + value.side + "\" has no nodes");
     require_component(value.side, value.component);
     changed_ = true;  // supports decide the numbering

@@ -29,7 +29,7 @@ class ContactNodes : public ContactRecord<dim> {
 
   /// The warning that nodes are more than three times farther apart than the tool's smallest size: they may step over
   /// it. Empty where they are not, or the tool does not tell its size.
-  std::string warning_of_size() const {
+  [[gnu::cold]] std::string warning_of_size() const {
     if constexpr (requires { tool_.smallest_size(); }) {
       const Real size = tool_.smallest_size(), spacing = measures_.smallest_spacing();
       if (size < spacing / 3)
@@ -125,7 +125,7 @@ class ContactNodes : public ContactRecord<dim> {
   // The closest points to the nodes where they are at the start. Throws std::invalid_argument where the tool has no
   // position, or nodes lie deeper inside it than their neighbours are away: the tool is the wrong way round, or ends
   // too early.
-  std::vector<SurfacePoint<Real, dim>> start_points(const Field& u, Real time) const {
+  [[gnu::cold]] std::vector<SurfacePoint<Real, dim>> start_points(const Field& u, Real time) const {
     std::vector<SurfacePoint<Real, dim>> points;
     const Pose pose = motion_.at(time);
     if (const Failure f = not_rigid(pose)) this->refuse(describe(f.cause));

@@ -31,7 +31,7 @@ struct Coincidence {
 /// Finds nodes closer to each other than `tolerance` times the mesh's size: blocks that were meshed separately and
 /// never merged come apart at their interface, although their cell lists are valid.
 template <int dim, int nodes_per_cell>
-Coincidence coincident_nodes(const Mesh<dim, nodes_per_cell>& mesh, Real tolerance = 1e-9) {
+[[gnu::cold]] Coincidence coincident_nodes(const Mesh<dim, nodes_per_cell>& mesh, Real tolerance = 1e-9) {
   Coincidence found;
   if (mesh.nodes.empty()) return found;
   auto low = mesh.nodes[0], high = low;
