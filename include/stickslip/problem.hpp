@@ -151,7 +151,8 @@ class Problem : public detail::SceneOf<Model>::type {
 };
 
 template <class Model>
-[[gnu::cold]] March<Model>::March(Problem<Model>& problem, const MarchOptions& options, const SolverParametersOf<Model>& solver)
+[[gnu::cold]] March<Model>::March(Problem<Model>& problem, const MarchOptions& options,
+                                  const SolverParametersOf<Model>& solver)
     : RunState(options, problem.time_),
       problem_(problem),
       state_(problem.revision_),
@@ -160,13 +161,14 @@ template <class Model>
                             .line_search = options.line_search},
               solver) {
   if constexpr (has_outer_iterations<Model>() || has_lag<Model>()) outer_guess_ = problem.u_;
-  if (options.mesh_error_interval > 0) stress_ = std::make_unique<StressRecoveries<Bodies<Mechanical>>>(problem.bodies_);
+  if (options.mesh_error_interval > 0)
+    stress_ = std::make_unique<StressRecoveries<Bodies<Mechanical>>>(problem.bodies_);
   problem_.prepare();
   problem_.bodies_.for_each([&](const auto& body) {
     if (const auto apart = mesh::coincident_nodes(body.mesh()); apart.nodes > 0)
       now_.warnings.add("coincident_nodes", body.name(), mesh::in_words(apart, body.name()), 0);
   });
-  problem_.require_agreement(options.end);
+  problem_.require_agreement(problem_.system_->prescribed(), options.end);
   if constexpr (has_contact<Model>)
     problem_.visit_contacts([&](const auto& pair) {
       if (const std::string text = pair.warning_of_size(); !text.empty())
@@ -403,7 +405,8 @@ typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field&
 
 /// The reason why no step is small enough, by name where the scene tells it. Spoils the last evaluation.
 template <class Model>
-[[gnu::cold]] typename March<Model>::Reason March<Model>::explain(Failure failure, Real time, [[maybe_unused]] Real dt) {
+[[gnu::cold]] typename March<Model>::Reason March<Model>::explain(Failure failure, Real time,
+                                                                  [[maybe_unused]] Real dt) {
   System<Mechanical>& system = *problem_.system_;
   Diagnosis<Mechanical>& diagnosis = *problem_.diagnosis_;
   if (failure.cause == FailureCause::contradicting_supports) return {failure, system.prescribed().contradiction(time)};

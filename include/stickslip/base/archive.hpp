@@ -107,7 +107,8 @@ class Archive {
     if (mode_ == Mode::taking) return exchange_list(name, text.data(), text.size());
     const Section& section = expected(name, layout<char>(), 1);
     const std::string_view there(section.bytes.data(), section.bytes.size());
-    if (there != text) fail("its " + std::string(name) + " is \"" + shown(there) + "\", here it is \"" + shown(text) + "\"");
+    if (there != text)
+      fail("its " + std::string(name) + " is \"" + shown(there) + "\", here it is \"" + shown(text) + "\"");
     ++next_;
   }
 
@@ -145,15 +146,16 @@ class Archive {
   [[gnu::cold]] const Section& expected(std::string_view name, std::string_view layout, std::size_t size) {
     if (next_ == sections.size()) fail("it lacks \"" + std::string(name) + "\"");
     const Section& section = sections[next_];
-    if (section.name != name) fail("it has \"" + shown(section.name) + "\" where this run has \"" + std::string(name) + "\"");
+    if (section.name != name)
+      fail("it has \"" + shown(section.name) + "\" where this run has \"" + std::string(name) + "\"");
     if (section.layout != layout) {
       const auto [there, here] = first_difference(section.layout, layout);
-      fail("its \"" + std::string(name) + "\" has values of other members or types, \"" + there + "\" where this run's have \"" +
-           here + "\"");
+      fail("its \"" + std::string(name) + "\" has values of other members or types, \"" + there +
+           "\" where this run's have \"" + here + "\"");
     }
     if (section.size != size || section.bytes.size() / size != section.count || section.bytes.size() % size != 0)
-      fail("its \"" + std::string(name) + "\" is of values of " + std::to_string(section.size) + " bytes, this run's of " +
-           std::to_string(size));
+      fail("its \"" + std::string(name) + "\" is of values of " + std::to_string(section.size) +
+           " bytes, this run's of " + std::to_string(size));
     return section;
   }
 

@@ -43,7 +43,7 @@ class CondensedMatrix {
   // Calls visit(k, row, column, weight) for every entry of C^T K C that the entry k of K adds to.
   template <class Visit>
   [[gnu::cold]] static void for_each_product(const SparseView& K, const IndexMap& assembled, const IndexMap& unknowns,
-                               Visit&& visit) {
+                                             Visit&& visit) {
     std::vector<std::vector<IndexMap::Weighted>> of(static_cast<std::size_t>(K.size));
     for (Index e = 0; e < K.size; ++e) of[static_cast<std::size_t>(e)] = unknowns.equations(assembled.component(e));
     for (Index j = 0; j < K.size; ++j)

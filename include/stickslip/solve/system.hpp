@@ -266,7 +266,7 @@ class System : detail::Balance {
   }
   static Index components_of(const BodiesType& bodies, [[maybe_unused]] const TermsOf<Model>* terms) {
     Index components = bodies.node_count() * dim;
-    if constexpr (std::tuple_size_v<TermsOf<Model>> > 0)
+    if constexpr (std::tuple_size_v < TermsOf < Model >>> 0)
       std::apply([&](const auto&... term) { ((components += term.unknowns()), ...); }, *terms);
     return components;
   }
