@@ -113,7 +113,7 @@ class March : public RunState {
   Index state_;  // revision of the converged state that the next step starts from
   Newton<SolverOf<Model>, has_inexact_tangent<Model>(), typename System<Mechanical>::Space> newton_;
   Field trial_, driven_, outer_guess_;
-  std::unique_ptr<StressRecoveries<Mechanical>> stress_;  // where the mesh's error is asked for
+  std::unique_ptr<StressRecoveries<Bodies<Mechanical>>> stress_;  // where the mesh's error is asked for
   static constexpr bool watches_bending = !std::is_empty_v<ThinCellsOf<Mechanical>>;
   [[no_unique_address]] ThinCellsOf<Mechanical> thin_;
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
@@ -157,7 +157,8 @@ class Problem : public detail::SceneOf<Model>::type {
 };
 
 template <class Model>
-March<Model>::March(Problem<Model>& problem, const MarchOptions& options, const SolverParametersOf<Model>& solver)
+[[gnu::cold]] March<Model>::March(Problem<Model>& problem, const MarchOptions& options,
+                                  const SolverParametersOf<Model>& solver)
     : RunState(options, problem.time_),
       problem_(problem),
       state_(problem.revision_),
@@ -173,19 +174,14 @@ March<Model>::March(Problem<Model>& problem, const MarchOptions& options, const 
                     std::same_as<ThinCells<typename Element::Cell>, ThinCellsOf<Mechanical>>)
         thin_.add_mesh(body.mesh(), body.first_node(), body.first_cell());
     });
-  if (options.mesh_error_interval > 0) stress_ = std::make_unique<StressRecoveries<Mechanical>>(problem.bodies_);
+  if (options.mesh_error_interval > 0)
+    stress_ = std::make_unique<StressRecoveries<Bodies<Mechanical>>>(problem.bodies_);
   problem_.prepare();
   problem_.bodies_.for_each([&](const auto& body) {
     if (const auto apart = mesh::coincident_nodes(body.mesh()); apart.nodes > 0)
-      now_.warnings.add("coincident_nodes", body.name(),
-                        std::to_string(apart.nodes) + " nodes of the mesh" +
-                            (body.name().empty() ? "" : " of body \"" + body.name() + "\"") +
-                            " lie where another one does, nodes " + std::to_string(apart.first[0]) + " and " +
-                            std::to_string(apart.first[1]) +
-                            " (from 0) among them: what was meshed in blocks that were not joined comes apart there",
-                        0);
+      now_.warnings.add("coincident_nodes", body.name(), mesh::in_words(apart, body.name()), 0);
   });
-  problem_.require_agreement(options.end);
+  problem_.require_agreement(problem_.system_->prescribed(), options.end);
   if constexpr (has_contact<Model>)
     problem_.visit_contacts([&](const auto& pair) {
       if (const std::string text = pair.warning_of_size(); !text.empty())
@@ -329,15 +325,15 @@ void March<Model>::watch_energy([[maybe_unused]] const StepReport& step) {
     gain_->update(step);
     const Real gain = gain_->gain();
     if (!(gain > options_.energy_gain)) return;
-    gained_ = "the time scheme has gained " + brief(gain, 2) +
-              " of the largest of the work done and the energy at the start; take smaller steps, or a spectral radius "
-              "below 1";
+    gained_ = joined({"the time scheme has gained ", brief(gain, 2),
+                      " of the largest of the work done and the energy at the start; take smaller steps, or a spectral "
+                      "radius below 1"});
     warn("energy_gained", "", gained_);
   }
 }
 
 template <class Model>
-void March<Model>::serialize(Archive& archive) {
+[[gnu::cold]] void March<Model>::serialize(Archive& archive) {
   problem_.prepare();
   problem_.serialize(archive);
   if (archive.loading()) state_ = problem_.revision_;
@@ -435,7 +431,8 @@ typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field&
 
 /// The reason why no step is small enough, by name where the scene tells it. Spoils the last evaluation.
 template <class Model>
-typename March<Model>::Reason March<Model>::explain(Failure failure, Real time, [[maybe_unused]] Real dt) {
+[[gnu::cold]] typename March<Model>::Reason March<Model>::explain(Failure failure, Real time,
+                                                                  [[maybe_unused]] Real dt) {
   System<Mechanical>& system = *problem_.system_;
   Diagnosis<Mechanical>& diagnosis = *problem_.diagnosis_;
   if (failure.cause == FailureCause::contradicting_supports) return {failure, system.prescribed().contradiction(time)};
@@ -521,12 +518,13 @@ void March<Model>::advance() {
         state_ = problem_.revision_;
         watch_energy(step);
         watch_bending(u);
-        complete_step(step, tried.first_iterations, error, [&] {
-          if (!stress_ || now_.report.steps % options_.mesh_error_interval != 0) return now_.step.errors.space;
+        Real mesh_error = now_.step.errors.space;
+        if (stress_ && now_.report.steps % options_.mesh_error_interval == 0) {
           const Stopwatch watch(system.timings.estimates);
           stress_->update(problem_.bodies_, u);
-          return stress_->relative();
-        });
+          mesh_error = stress_->relative();
+        }
+        complete_step(step, tried.first_iterations, error, mesh_error);
         return;
       }
       ++rejected;

@@ -56,11 +56,141 @@ struct SceneParameters<Model, Tag, true> {
 };
 }  // namespace detail
 
+/// What of a scene depends on its bodies alone: supports and loads, and the converged displacements. Scenes that differ
+/// in contact, inertia or solver share it.
+template <class BodiesType_>
+class BodyScene {
+ public:
+  using BodiesType = BodiesType_;
+  static constexpr int dim = BodiesType::dim;
+
+  BodyScene(const BodyScene&) = delete;
+  BodyScene& operator=(const BodyScene&) = delete;
+
+  Real time() const { return time_; }
+  const BodiesType& bodies() const { return bodies_; }
+  /// The body of a model that names no types of bodies.
+  const auto& body() const requires requires(const BodiesType& bodies) { bodies.only(); }
+  { return bodies_.only(); }
+  /// Converged nodal displacements, node * dim + component [length].
+  const Field& displacement() const { return u_; }
+  /// Displacement of a node [length].
+  Vec<Real, dim> displacement(Index node) const { return at_node<dim>(u_, node); }
+  /// Sum of the support forces on the body at a side, in one component [force].
+  Real reaction(const std::string& side, Index component) const {
+    const std::vector<Index> nodes = bodies_.side_nodes(side);
+    require_component(side, component);
+    Real sum = 0;
+    for (const Index n : nodes) sum += reactions_[n * dim + component];
+    return sum;
+  }
+  /// Largest accumulated plastic strain of a point; 0 for a material that has none.
+  Real max_plastic_strain() const {
+    Real largest = 0;
+    bodies_.for_each([&](const auto& body) {
+      body.visit_points(u_, [&](Index, int, const auto&, const auto& state, Real) {
+        if constexpr (requires { state.plastic_strain; }) largest = std::max(largest, state.plastic_strain);
+      });
+    });
+    return largest;
+  }
+
+ protected:
+  BodyScene(typename BodiesType::Descriptions bodies, const typename BodiesType::Kinematics& kinematics)
+      : bodies_(std::move(bodies), kinematics) {}
+
+  // See Scene, of the same names.
+  [[gnu::cold]] void add_drive(const std::string& side, Index component, std::function<Real(Real)> value) {
+    driven_.push_back(checked({side, component, std::move(value)}));
+    Prescribed supports(dim, bodies_.extent());
+    for (const SideValue& d : driven_) supports.drive(d, bodies_.side_nodes(d.side));
+    if (const std::string fault = supports.contradiction(time_); !fault.empty()) {
+      driven_.pop_back();
+      refuse_supports(fault);
+    }
+  }
+  [[gnu::cold]] void take_away(const std::string& side, Index component) {
+    require_component(side, component);
+    if (std::erase_if(driven_, [&](const SideValue& d) { return d.side == side && d.component == component; }) == 0)
+      throw std::invalid_argument("release of side \"" + side + "\": it has no support in component " +
+                                  std::to_string(component));
+    changed_ = true;
+  }
+  [[gnu::cold]] void add_constraint(LinearConstraint constraint) {
+    for (const IndexMap::Weighted& m : constraint.dependent.masters) require_exists(m.index);
+    require_exists(constraint.dependent.component);
+    constraints_.push_back(std::move(constraint));
+    changed_ = true;
+  }
+  [[gnu::cold]] void add_load(const std::string& side, Index component, std::function<Real(Real)> value) {
+    if (!value) throw std::invalid_argument("load on side \"" + side + "\": needs a function of time");
+    if (!bodies_.side_has_facets(side))
+      throw std::invalid_argument("load on side \"" + side + "\": the side has no facets to spread it over");
+    loads_.push_back(checked({side, component, std::move(value)}));
+  }
+
+  [[noreturn, gnu::cold]] static void refuse_supports(const std::string& fault) {
+    throw std::invalid_argument("two supports contradict each other: " + fault +
+                                "; release() takes a side's supports away");
+  }
+  // Throws where two supports contradict each other on the way to a time, as far as a look at some times tells.
+  [[gnu::cold]] void require_agreement(const Prescribed& prescribed, Real end) const {
+    constexpr int looks = 64;
+    for (int k = 0; k <= looks; ++k)
+      if (const std::string fault = prescribed.contradiction(time_ + (end - time_) * k / looks); !fault.empty())
+        refuse_supports(fault);
+  }
+  [[gnu::cold]] void check_bodies(Archive& archive) const {
+    archive.check_equal("kinematics", type_name<typename BodiesType::Kinematics>());
+    bodies_.for_each([&](const auto& body) {
+      using BodyType = std::remove_cvref_t<decltype(body)>;
+      const std::string of = body.name().empty() ? "" : " of body " + body.name();
+      archive.check_equal("element" + of, type_name<typename BodyType::Element>());
+      archive.check_equal("material" + of, type_name<typename BodyType::Material>());
+      archive.check_equal("mesh" + of, fingerprint(body.mesh()));
+    });
+  }
+  [[gnu::cold]] void serialize_bodies(Archive& archive) {
+    archive("displacement", u_);
+    archive("last increment", last_increment_);
+    archive("time", time_);
+    archive("last time increment", last_dt_);
+    archive("time increment before", increment_before_dt_);
+    archive("reactions", reactions_);
+    bodies_.serialize(archive);
+  }
+
+  BodiesType bodies_;
+  std::vector<SideValue> driven_, loads_;
+  std::vector<LinearConstraint> constraints_;
+  Field u_, last_increment_, reactions_;
+  Real time_ = 0;
+  Real last_dt_ = 0;              // 0: there is no increment to extrapolate
+  Real increment_before_dt_ = 0;  // 0: nor a bend
+  bool changed_ = false;          // supports or loads, since the system was made
+
+ private:
+  void require_exists(Index component) const {
+    if (component < 0 || component >= u_.size())
+      throw std::invalid_argument("linear constraint: there is no component " + std::to_string(component));
+  }
+  static void require_component(const std::string& side, Index component) {
+    if (component < 0 || component >= dim)
+      throw std::invalid_argument("side \"" + side + "\": there is no component " + std::to_string(component));
+  }
+  SideValue checked(SideValue value) {
+    if (bodies_.side_nodes(value.side).empty()) throw std::invalid_argument("side \"" + value.side + "\" has no nodes");
+    require_component(value.side, value.component);
+    changed_ = true;  // supports decide the numbering
+    return value;
+  }
+};
+
 /// A scene, whatever solves it: bodies, tools, supports and loads, and its converged state.
 template <class Model>
-class Scene {
+class Scene : public BodyScene<Bodies<Model>> {
  public:
-  using BodiesType = Bodies<Model>;
+  using Base = BodyScene<Bodies<Model>>;
   static constexpr int dim = Model::Kinematics::dim;
   static constexpr bool with_contact = has_contact<Model>;
   static constexpr bool symmetric_storage = matrix_storage<Model> == Symmetry::symmetric;
@@ -68,8 +198,8 @@ class Scene {
   using Parameters = detail::SceneParameters<Model, Scene>;
 
   /// Throws std::invalid_argument, naming the input, before anything is computed.
-  explicit Scene(Parameters parameters)
-      : bodies_(std::move(parameters).descriptions(), validated(parameters.kinematics)),
+  [[gnu::cold]] explicit Scene(Parameters parameters)
+      : Base(std::move(parameters).descriptions(), validated(parameters.kinematics)),
         terms_(std::move(parameters.terms)) {
     if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
     Index components = bodies_.node_count() * dim;
@@ -81,9 +211,6 @@ class Scene {
     last_increment_ = reactions_ = u_;
     if constexpr (has_inertia<Model>) increment_before_ = u_;
   }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-
   // Supports and loads may be given at any time, between the steps of a march as well: they count from the next step
   // on.
 
@@ -92,40 +219,24 @@ class Scene {
   /// Drives a displacement component of a side: value(time) [length]. Throws std::invalid_argument where another
   /// support prescribes another value of the component at a node now.
   Scene& drive(const std::string& side, Index component, std::function<Real(Real)> value) {
-    driven_.push_back(checked({side, component, std::move(value)}));
-    Prescribed supports(dim, bodies_.extent());
-    for (const SideValue& d : driven_) supports.drive(d, bodies_.side_nodes(d.side));
-    if (const std::string fault = supports.contradiction(time_); !fault.empty()) {
-      driven_.pop_back();
-      refuse_supports(fault);
-    }
+    this->add_drive(side, component, std::move(value));
     return *this;
   }
   /// Takes the supports of a side in one component away: what `hold` and `drive` on that side gave.
   Scene& release(const std::string& side, Index component) {
-    require_component(side, component);
-    if (std::erase_if(driven_, [&](const SideValue& d) { return d.side == side && d.component == component; }) == 0)
-      throw std::invalid_argument("release of side \"" + side + "\": it has no support in component " +
-                                  std::to_string(component));
-    changed_ = true;
+    this->take_away(side, component);
     return *this;
   }
   /// Makes a component of a node depend on others: u_dependent = sum of weight * u_master + offset(time), components
   /// counted node * dim + i over all bodies. Where that contradicts supports or another constraint, the next march
   /// throws std::invalid_argument.
   Scene& constrain(LinearConstraint constraint) {
-    for (const IndexMap::Weighted& m : constraint.dependent.masters) require_exists(m.index);
-    require_exists(constraint.dependent.component);
-    constraints_.push_back(std::move(constraint));
-    changed_ = true;
+    this->add_constraint(std::move(constraint));
     return *this;
   }
   /// Loads a side with a total dead force in one component, spread over its reference area: value(time) [force].
   Scene& load(const std::string& side, Index component, std::function<Real(Real)> value) {
-    if (!value) throw std::invalid_argument("load on side \"" + side + "\": needs a function of time");
-    if (!bodies_.side_has_facets(side))
-      throw std::invalid_argument("load on side \"" + side + "\": the side has no facets to spread it over");
-    loads_.push_back(checked({side, component, std::move(value)}));
+    this->add_load(side, component, std::move(value));
     return *this;
   }
 
@@ -147,21 +258,13 @@ class Scene {
     return *this;
   }
 
-  Real time() const { return time_; }
   /// The discrete system of the last step; it exists once a march has begun.
   const System<Model>& system() const {
     if (!system_) throw std::invalid_argument("the problem has no system before its first march");
     return *system_;
   }
-  const BodiesType& bodies() const { return bodies_; }
   /// The user's own terms.
   const TermsOf<Model>& terms() const { return terms_; }
-  /// The body of a model that names no types of bodies.
-  const auto& body() const requires(!detail::NamesBodies<Model>) { return bodies_.only(); }
-  /// Converged nodal displacements, node * dim + component [length].
-  const Field& displacement() const { return u_; }
-  /// Displacement of a node [length].
-  Vec<Real, dim> displacement(Index node) const { return at_node<dim>(u_, node); }
   /// Mass, velocity and acceleration.
   const InertiaForces<Model>& inertia() const requires has_inertia<Model> { return *inertia_; }
   Index unknowns() const { return system_ ? system_->dofs().unknowns() : 0; }
@@ -182,32 +285,15 @@ class Scene {
   }
   /// Force of the body on the tool of a contact [force]; in axisymmetry of the full turn.
   Vec<Real, dim> contact_force(const std::string& name) const requires with_contact { return contact(name).force(); }
-  /// Sum of the support forces on the body at a side, in one component [force].
-  Real reaction(const std::string& side, Index component) const {
-    const std::vector<Index> nodes = bodies_.side_nodes(side);
-    require_component(side, component);
-    Real sum = 0;
-    for (const Index n : nodes) sum += reactions_[n * dim + component];
-    return sum;
-  }
-
-  /// Largest accumulated plastic strain of a point; 0 for a material that has none.
-  Real max_plastic_strain() const {
-    Real largest = 0;
-    bodies_.for_each([&](const auto& body) {
-      body.visit_points(u_, [&](Index, int, const auto&, const auto& state, Real) {
-        if constexpr (requires { state.plastic_strain; }) largest = std::max(largest, state.plastic_strain);
-      });
-    });
-    return largest;
-  }
 
  private:
   template <class>
   friend class March;
+  using Base::bodies_, Base::driven_, Base::loads_, Base::constraints_, Base::u_, Base::last_increment_,
+      Base::reactions_, Base::time_, Base::last_dt_, Base::increment_before_dt_, Base::changed_;
 
   // Makes the discrete system, unless supports and loads are the same as before, and at time 0 the state to start from.
-  void prepare() {
+  [[gnu::cold]] void prepare() {
     if (system_ && !changed_) return;
     const Timings spent = system_ ? system_->timings : Timings{};
     const Index revision_of_pattern = system_ ? system_->pattern_revision() : numberings_;
@@ -229,19 +315,6 @@ class Scene {
       return *inertia_;
     else
       return inertia_;
-  }
-
-  // Throws where two supports contradict each other on the way to a time, as far as a look at some times tells.
-  void require_agreement(Real end) const {
-    constexpr int looks = 64;
-    for (int k = 0; k <= looks; ++k)
-      if (const std::string fault = system_->prescribed().contradiction(time_ + (end - time_) * k / looks);
-          !fault.empty())
-        refuse_supports(fault);
-  }
-  [[noreturn]] static void refuse_supports(const std::string& fault) {
-    throw std::invalid_argument("two supports contradict each other: " + fault +
-                                "; release() takes a side's supports away");
   }
 
   // Guesses the displacements after a step dt: the last increment again; for lack of one, with inertia those of
@@ -277,28 +350,15 @@ class Scene {
   }
 
   // What the scene is of, and its converged state.
-  void serialize(Archive& archive) {
-    archive.check_equal("kinematics", type_name<typename Model::Kinematics>());
-    bodies_.for_each([&](const auto& body) {
-      using BodyType = std::remove_cvref_t<decltype(body)>;
-      const std::string of = body.name().empty() ? "" : " of body " + body.name();
-      archive.check_equal("element" + of, type_name<typename BodyType::Element>());
-      archive.check_equal("material" + of, type_name<typename BodyType::Material>());
-      archive.check_equal("mesh" + of, fingerprint(body.mesh()));
-    });
+  [[gnu::cold]] void serialize(Archive& archive) {
+    this->check_bodies(archive);
     archive.check_equal("friction", type_name<typename Model::Friction>());
     archive.check_equal("enforcement", type_name<typename Model::Enforcement>());
     if constexpr (with_contact) archive.check_equal("tool", type_name<ToolOf<Model>>());
     archive.check_equal("time integration", type_name<typename Model::TimeIntegration>());
     archive.check_equal("damping", type_name<DampingOf<Model>>());
     archive.check_equal("supports", system_->dofs().fingerprint());
-    archive("displacement", u_);
-    archive("last increment", last_increment_);
-    archive("time", time_);
-    archive("last time increment", last_dt_);
-    archive("time increment before", increment_before_dt_);
-    archive("reactions", reactions_);
-    bodies_.serialize(archive);
+    this->serialize_bodies(archive);
     std::apply([&](auto&... terms) { (terms.serialize(archive), ...); }, terms_);
     if constexpr (has_inertia<Model>) {
       archive("increment before", increment_before_);
@@ -345,39 +405,17 @@ class Scene {
     if constexpr (requires { parameters.validate(); }) parameters.validate();
     return parameters;
   }
-  void require_exists(Index component) const {
-    if (component < 0 || component >= u_.size())
-      throw std::invalid_argument("linear constraint: there is no component " + std::to_string(component));
-  }
-  static void require_component(const std::string& side, Index component) {
-    if (component < 0 || component >= dim)
-      throw std::invalid_argument("side \"" + side + "\": there is no component " + std::to_string(component));
-  }
-  SideValue checked(SideValue value) {
-    if (bodies_.side_nodes(value.side).empty()) throw std::invalid_argument("side \"" + value.side + "\" has no nodes");
-    require_component(value.side, value.component);
-    changed_ = true;  // supports decide the numbering
-    return value;
-  }
 
-  BodiesType bodies_;
   [[no_unique_address]] TermsOf<Model> terms_;
   [[no_unique_address]] typename System<Model>::Pairs pairs_;
   [[no_unique_address]] std::conditional_t<has_inertia<Model>, std::optional<InertiaForces<Model>>, NoInertiaForces>
       inertia_;
-  std::vector<SideValue> driven_, loads_;
-  std::vector<LinearConstraint> constraints_;
   std::unique_ptr<System<Model>> system_;
   std::unique_ptr<Diagnosis<Model>> diagnosis_;
-  Field u_, last_increment_, reactions_;
   [[no_unique_address]] StoredIf<has_inertia<Model>, Field, Scene> increment_before_;
-  Real time_ = 0;
-  Real last_dt_ = 0;              // 0: there is no increment to extrapolate
-  Real increment_before_dt_ = 0;  // 0: nor a bend
-  bool changed_ = false;          // supports or loads, since the system was made
-  bool proven_ = false;           // that they hold the body, by a step
-  Index numberings_ = 0;          // systems that were made
-  Index revision_ = 0;            // of the converged state, for marches to tell whether it is still theirs
+  bool proven_ = false;   // that supports hold the body, by a step
+  Index numberings_ = 0;  // systems that were made
+  Index revision_ = 0;    // of the converged state, for marches to tell whether it is still theirs
 };
 
 }  // namespace stickslip

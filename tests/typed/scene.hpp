@@ -7,6 +7,7 @@
 #include <stickslip/problem.hpp>
 
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace typed {
@@ -87,13 +88,13 @@ Contact<Model, Friction> rubbing() {
   if constexpr (Friction::active) give(contact.friction);
   return contact;
 }
-// The mechanics are what a contact knows of its model, and what can be deduced from it.
-template <class M>
-void add_contacts(std::vector<ContactOf<M, typename M::Friction>>& contacts) {
-  contacts.push_back(rubbing<M, typename M::Friction>());
+template <class M, class Friction>
+void add_contacts(std::type_identity<Friction>, std::vector<Contact<M, Friction>>& contacts) {
+  contacts.push_back(rubbing<M, Friction>());
 }
 template <class M, class First, class Second>
-void add_contacts(std::tuple<std::vector<ContactOf<M, First>>, std::vector<ContactOf<M, Second>>>& contacts) {
+void add_contacts(std::type_identity<PerContact<First, Second>>,
+                  std::tuple<std::vector<Contact<M, First>>, std::vector<Contact<M, Second>>>& contacts) {
   std::get<0>(contacts).push_back(rubbing<M, First>());
   Contact<M, Second> aside{
       .side = "right", .tool = wall(std::integral_constant<int, M::Kinematics::dim>{}), .name = "wall"};
@@ -111,7 +112,8 @@ Answer press_and_drag() {
   typename Problem<Model>::Parameters parameters{.body = block(std::integral_constant<int, dim>{})};
   give(parameters.material);
   if constexpr (has_inertia<Model>) parameters.density = 20;
-  if constexpr (has_contact<Model>) add_contacts(parameters.contacts);
+  if constexpr (has_contact<Model>)
+    add_contacts<Model>(std::type_identity<typename Model::Friction>{}, parameters.contacts);
   Problem<Model> problem(std::move(parameters));
   for (Index i = 0; i < dim; ++i) {
     problem.hold("bottom", i);

@@ -78,19 +78,19 @@ class Archive {
   /// A value, or a list of a length that the object knows: of numbers, of structs that list their members, or of what
   /// has a `serialize` itself.
   template <class T>
-  void operator()(const std::string& name, T& value) {
+  void operator()(std::string_view name, T& value) {
     if constexpr (std::same_as<T, Field>)
       exchange_list(name, value.data(), static_cast<std::size_t>(value.size()));
     else
       exchange_list(name, &value, 1);
   }
   template <class T>
-  void operator()(const std::string& name, std::vector<T>& list) {
+  void operator()(std::string_view name, std::vector<T>& list) {
     exchange_list(name, list.data(), list.size());
   }
   /// A list that may have another length than the object's has now.
   template <class T>
-  void resizable(const std::string& name, std::vector<T>& list) {
+  void resizable(std::string_view name, std::vector<T>& list) {
     static_assert(!std::is_same_v<T, bool> && !std::is_empty_v<T>);
     if (mode_ != Mode::taking) {
       const Section& section = expected(name, layout<T>(), detail::packed_size<T>());
@@ -103,11 +103,12 @@ class Archive {
     exchange_list(name, list.data(), list.size());
   }
   /// What must be the same in both, or else the state is of something else.
-  void check_equal(const std::string& name, std::string text) {
+  [[gnu::cold]] void check_equal(std::string_view name, std::string text) {
     if (mode_ == Mode::taking) return exchange_list(name, text.data(), text.size());
     const Section& section = expected(name, layout<char>(), 1);
     const std::string_view there(section.bytes.data(), section.bytes.size());
-    if (there != text) fail("its " + name + " is \"" + shown(there) + "\", here it is \"" + shown(text) + "\"");
+    if (there != text)
+      fail("its " + std::string(name) + " is \"" + shown(there) + "\", here it is \"" + shown(text) + "\"");
     ++next_;
   }
 
@@ -142,23 +143,24 @@ class Archive {
     };
     return {part(there), part(here)};
   }
-  const Section& expected(const std::string& name, const std::string& layout, std::size_t size) {
-    if (next_ == sections.size()) fail("it lacks \"" + name + "\"");
+  [[gnu::cold]] const Section& expected(std::string_view name, std::string_view layout, std::size_t size) {
+    if (next_ == sections.size()) fail("it lacks \"" + std::string(name) + "\"");
     const Section& section = sections[next_];
-    if (section.name != name) fail("it has \"" + shown(section.name) + "\" where this run has \"" + name + "\"");
+    if (section.name != name)
+      fail("it has \"" + shown(section.name) + "\" where this run has \"" + std::string(name) + "\"");
     if (section.layout != layout) {
       const auto [there, here] = first_difference(section.layout, layout);
-      fail("its \"" + name + "\" has values of other members or types, \"" + there + "\" where this run's have \"" +
-           here + "\"");
+      fail("its \"" + std::string(name) + "\" has values of other members or types, \"" + there +
+           "\" where this run's have \"" + here + "\"");
     }
     if (section.size != size || section.bytes.size() / size != section.count || section.bytes.size() % size != 0)
-      fail("its \"" + name + "\" is of values of " + std::to_string(section.size) + " bytes, this run's of " +
-           std::to_string(size));
+      fail("its \"" + std::string(name) + "\" is of values of " + std::to_string(section.size) +
+           " bytes, this run's of " + std::to_string(size));
     return section;
   }
 
   template <class T>
-  void exchange_list(const std::string& name, T* values, std::size_t count) {
+  void exchange_list(std::string_view name, T* values, std::size_t count) {
     if constexpr (detail::Serializes<T>::value) {
       for (std::size_t k = 0; k < count; ++k) serialize_each(values[k]);
     } else if constexpr (std::is_empty_v<T>) {
@@ -188,15 +190,16 @@ class Archive {
     for (T& value : values) serialize_each(value);
   }
 
-  void exchange(const std::string& name, const std::string& layout, void* data, std::size_t count, std::size_t size) {
+  [[gnu::noinline]] void exchange(std::string_view name, const std::string& layout, void* data, std::size_t count,
+                                  std::size_t size) {
     if (mode_ == Mode::taking) {
       const char* bytes = static_cast<const char*>(data);
-      sections.push_back({name, layout, size, count, std::vector<char>(bytes, bytes + count * size)});
+      sections.push_back({std::string(name), layout, size, count, std::vector<char>(bytes, bytes + count * size)});
       return;
     }
     const Section& section = expected(name, layout, size);
     if (section.count != count)
-      fail("its \"" + name + "\" has " + std::to_string(section.count) + " values, this run's " +
+      fail("its \"" + std::string(name) + "\" has " + std::to_string(section.count) + " values, this run's " +
            std::to_string(count));
     if (mode_ == Mode::giving && count > 0) std::memcpy(data, section.bytes.data(), section.bytes.size());
     ++next_;

@@ -4,7 +4,9 @@
 #include <stickslip/base/types.hpp>
 
 #include <charconv>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 namespace stickslip {
 
@@ -13,6 +15,13 @@ namespace stickslip {
 inline std::string brief(Real x, int precision = 6) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof(digits), x, std::chars_format::general, precision).ptr};
+}
+
+/// Pieces of a sentence, joined. A function of its own: sentences are many, and nothing of them depends on the model.
+[[gnu::noinline, gnu::cold]] inline std::string joined(std::initializer_list<std::string_view> pieces) {
+  std::string text;
+  for (const std::string_view piece : pieces) text += piece;
+  return text;
 }
 
 }  // namespace stickslip

@@ -158,29 +158,49 @@ constexpr bool detail::lists_are_complete() {
     return true;
 }
 
+namespace detail {
+// A layout as it is written; its functions are those of all types.
+struct LayoutText {
+  std::string text{};
+  [[gnu::noinline]] void add_number(char kind, std::size_t size) { text += kind + std::to_string(size); }
+  [[gnu::noinline]] void add_length(std::size_t length) { text += std::to_string(length) + " "; }
+  [[gnu::noinline]] void add_name(const char* name) { (text.back() == '(' ? text : text += ", ").append(name) += ' '; }
+};
+template <class T>
+void add_layout(LayoutText& text) {
+  if constexpr (std::is_enum_v<T>) {
+    add_layout<std::underlying_type_t<T>>(text);
+  } else if constexpr (is_number<T>) {
+    constexpr char kind = std::same_as<T, bool>         ? 'b'
+                          : std::same_as<T, char>       ? 'c'
+                          : std::is_floating_point_v<T> ? 'f'
+                          : std::is_signed_v<T>         ? 'i'
+                                                        : 'u';
+    text.add_number(kind, sizeof(T));
+  } else if constexpr (FixedList<T>::value) {
+    text.add_length(FixedList<T>::size);
+    add_layout<typename FixedList<T>::Element>(text);
+  } else {
+    text.text += '(';
+    if constexpr (ListsMembers<T>)
+      T::members(unmade<T>.value, [&]<class M>(const char* name, M&) {
+        if constexpr (!std::is_empty_v<M>) {
+          text.add_name(name);
+          add_layout<M>(text);
+        }
+      });
+    text.text += ')';
+  }
+}
+}  // namespace detail
+
 /// Names and types of what a value consists of: numbers as f8, i4, u8, b1 or c1, lists with their length in front,
 /// structs in parentheses: (gap f8, force 2 f8, touching b1).
 template <class T>
 std::string layout() {
-  if constexpr (std::is_enum_v<T>) {
-    return layout<std::underlying_type_t<T>>();
-  } else if constexpr (detail::is_number<T>) {
-    const char kind = std::same_as<T, bool>         ? 'b'
-                      : std::same_as<T, char>       ? 'c'
-                      : std::is_floating_point_v<T> ? 'f'
-                      : std::is_signed_v<T>         ? 'i'
-                                                    : 'u';
-    return kind + std::to_string(sizeof(T));
-  } else if constexpr (detail::FixedList<T>::value) {
-    return std::to_string(detail::FixedList<T>::size) + " " + layout<typename detail::FixedList<T>::Element>();
-  } else {
-    std::string text;
-    if constexpr (ListsMembers<T>)
-      T::members(detail::unmade<T>.value, [&]<class M>(const char* name, M&) {
-        if constexpr (!std::is_empty_v<M>) text += (text.empty() ? "" : ", ") + std::string(name) + " " + layout<M>();
-      });
-    return "(" + text + ")";
-  }
+  detail::LayoutText text;
+  detail::add_layout<T>(text);
+  return text.text;
 }
 
 namespace detail {

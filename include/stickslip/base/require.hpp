@@ -11,15 +11,18 @@
 /// meets none of it.
 namespace stickslip::require {
 
+[[noreturn, gnu::cold, gnu::noinline]] inline void refuse(const char* what, const char* rule) {
+  throw std::invalid_argument(what + std::string(rule));
+}
 inline void finite(Real x, const char* what) {
-  if (!std::isfinite(x)) throw std::invalid_argument(what + std::string(" must be finite"));
+  if (!std::isfinite(x)) refuse(what, " must be finite");
 }
 inline void positive(Real x, const char* what) {
-  if (!(x > 0)) throw std::invalid_argument(what + std::string(" must be positive"));
+  if (!(x > 0)) refuse(what, " must be positive");
   finite(x, what);
 }
 inline void not_negative(Real x, const char* what) {
-  if (!(x >= 0)) throw std::invalid_argument(what + std::string(" must not be negative"));
+  if (!(x >= 0)) refuse(what, " must not be negative");
   finite(x, what);
 }
 

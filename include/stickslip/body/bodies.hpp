@@ -16,91 +16,133 @@
 
 namespace stickslip {
 
-/// A body as the user describes it. `Type` has its Element and Material.
-template <class Model, class Type>
-struct BodyDescription {
+/// See BodyDescription.
+template <int dim, class Element, class Material, bool weighed>
+struct BodyDescriptionOf {
   std::string name = "";  ///< sides are then called "name.side"
-  Mesh<Model::Kinematics::dim, Type::Element::nodes> mesh;
-  typename Type::Material material{};
-  [[no_unique_address]] StoredIf<has_inertia<Model>, Real, BodyDescription> density{};  ///< [mass / reference volume]
+  Mesh<dim, Element::nodes> mesh;
+  Material material{};
+  [[no_unique_address]] StoredIf<weighed, Real, BodyDescriptionOf> density{};  ///< [mass / reference volume]
   std::string nodes_of = "";  ///< another body, given before it, whose nodes this one's mesh has: they are shared
 };
+
+/// A body as the user describes it. `Type` has its Element and Material.
+template <class Model, class Type>
+using BodyDescription =
+    BodyDescriptionOf<Model::Kinematics::dim, typename Type::Element, typename Type::Material, has_inertia<Model>>;
 
 namespace detail {
 template <class Model, class Type>
 using BodyOfType =
     BodyOf<typename Model::Kinematics, typename Type::Element, typename Type::Material, matrix_storage<Model>>;
-template <class Model, class List>
-struct BodyLists;
-template <class Model, class... Types>
-struct BodyLists<Model, BodyTypes<Types...>> {
-  using Stored = std::tuple<std::list<BodyOfType<Model, Types>>...>;
-  using Described = std::tuple<std::vector<BodyDescription<Model, Types>>...>;
-  static constexpr std::size_t count = sizeof...(Types);
+
+// Lists of the bodies of each type: `Types` is BodyTypes, or a type alone where a model names none.
+template <class Kinematics, class Types, Symmetry storage, bool weighed>
+struct BodyLists {
+  using Stored = std::tuple<std::list<BodyOf<Kinematics, typename Types::Element, typename Types::Material, storage>>>;
+  using Described =
+      std::vector<BodyDescriptionOf<Kinematics::dim, typename Types::Element, typename Types::Material, weighed>>;
+  static constexpr bool named = false, one_type = true;
 };
-template <class Model, class Type>
-struct BodyLists<Model, BodyTypes<Type>> {
-  using Stored = std::tuple<std::list<BodyOfType<Model, Type>>>;
-  using Described = std::vector<BodyDescription<Model, Type>>;
-  static constexpr std::size_t count = 1;
+template <class Kinematics, class... Types, Symmetry storage, bool weighed>
+struct BodyLists<Kinematics, BodyTypes<Types...>, storage, weighed> {
+  using Stored =
+      std::tuple<std::list<BodyOf<Kinematics, typename Types::Element, typename Types::Material, storage>>...>;
+  using Described = std::tuple<
+      std::vector<BodyDescriptionOf<Kinematics::dim, typename Types::Element, typename Types::Material, weighed>>...>;
+  static constexpr bool named = true, one_type = false;
 };
+template <class Kinematics, class Type, Symmetry storage, bool weighed>
+struct BodyLists<Kinematics, BodyTypes<Type>, storage, weighed> : BodyLists<Kinematics, Type, storage, weighed> {
+  static constexpr bool named = true;
+};
+
+// The side of a body that is called `side` in a scene: "body.side", or "side" alone.
+inline bool is_side_of(const std::string& body, const std::string& side) {
+  return side.size() > body.size() && side.starts_with(body) && side[body.size()] == '.';
+}
+inline std::string own_side(const std::string& body, const std::string& side) {
+  return is_side_of(body, side) ? side.substr(body.size() + 1) : side;
+}
+[[noreturn, gnu::cold]] inline void refuse_side(const std::string& side, const std::vector<std::string>& bodies) {
+  std::string known;
+  for (const std::string& body : bodies) known += (known.empty() ? "" : ", ") + body;
+  throw std::invalid_argument("there is no side called \"" + side +
+                              "\": sides are named \"body.side\", and the bodies are " + known);
+}
+[[noreturn, gnu::cold]] inline void refuse_name(const std::string& body) {
+  throw std::invalid_argument("bodies: " +
+                              (body.empty() ? "one of several has no name" : "two are called \"" + body + "\""));
+}
+[[noreturn, gnu::cold]] inline void refuse_shared_nodes(const std::string& body, const std::string& of, bool exists) {
+  throw std::invalid_argument("body \"" + body + "\": " +
+                              (exists ? "its mesh does not have the nodes of body \"" + of + "\", which it is to share"
+                                      : "there is no body \"" + of + "\" before it to share nodes with"));
+}
+[[noreturn, gnu::cold]] inline void refuse_loose_node(const std::string& body, Index node) {
+  throw std::invalid_argument("body" + (body.empty() ? "" : " \"" + body + "\"") + ": node " + std::to_string(node) +
+                              " of the mesh is in no cell");
+}
+[[gnu::cold]] inline void require_density(Real density, const std::string& body) {
+  require::positive(density, ((body.empty() ? "inertia" : "body \"" + body + "\"") + ": the density").c_str());
+}
 }  // namespace detail
 
-/// The bodies of a model as the user gives them: a list, or with several types a tuple of a list each.
-template <class Model>
-using BodyDescriptions = typename detail::BodyLists<Model, BodyTypesOf<Model>>::Described;
-
 /// The bodies of a problem under one numbering: a body's nodes and cells follow those of the bodies before it, unless
-/// it shares the nodes of one. Each is a term that adds to its part of the fields.
-template <class Model>
-class Bodies {
-  using Lists = detail::BodyLists<Model, BodyTypesOf<Model>>;
+/// it shares the nodes of one. Each is a term that adds to its part of the fields. Models that differ in contact or
+/// solver share the class: see Bodies.
+template <class Kinematics_, class Types, Symmetry storage, bool weighed>
+class BodiesOf {
+  using Lists = detail::BodyLists<Kinematics_, Types, storage, weighed>;
   using First = typename std::tuple_element_t<0, typename Lists::Stored>::value_type;
 
  public:
-  using Kinematics = typename Model::Kinematics;
+  using Kinematics = Kinematics_;
   using Point = Vec<Real, Kinematics::dim>;
-  using Matrix = SparseMatrix<matrix_storage<Model>>;
+  using Matrix = SparseMatrix<storage>;
+  /// As the user gives them: a list, or with several types a tuple of a list each.
+  using Descriptions = typename Lists::Described;
+  /// A tuple of a list for each type of bodies.
+  using Stored = typename Lists::Stored;
   static constexpr int dim = Kinematics::dim;
-  static constexpr bool one_type = Lists::count == 1;
+  static constexpr bool one_type = Lists::one_type;
 
   /// Throws std::invalid_argument, naming the input, before anything is computed.
-  Bodies(BodyDescriptions<Model> described, const Kinematics& kinematics) {
+  [[gnu::cold]] BodiesOf(Descriptions described, const Kinematics& kinematics) {
     if constexpr (one_type)
       add_all(std::get<0>(lists_), described, kinematics);
     else
       [&]<std::size_t... i>(std::index_sequence<i...>) {
         (add_all(std::get<i>(lists_), std::get<i>(described), kinematics), ...);
       }
-    (std::make_index_sequence<Lists::count>{});
+    (std::make_index_sequence<std::tuple_size_v<Stored>>{});
     if (count_ == 0) throw std::invalid_argument("bodies: there is none");
     require_cells();
-    if (count_ > 1)
-      for_each([&](const auto& body) {
-        joined_.resize(
-            std::max(joined_.size(), static_cast<std::size_t>(body.first_node()) + body.mesh().nodes.size()));
-        std::copy(body.mesh().nodes.begin(), body.mesh().nodes.end(), joined_.begin() + body.first_node());
-      });
-    for_each([&](const auto& body) { extent_ = std::max(extent_, body.extent()); });
+    for_each([&](const auto& body) {
+      extent_ = std::max(extent_, body.extent());
+      if (count_ == 1) return;
+      joined_.resize(std::max(joined_.size(), static_cast<std::size_t>(body.first_node()) + body.mesh().nodes.size()));
+      std::copy(body.mesh().nodes.begin(), body.mesh().nodes.end(), joined_.begin() + body.first_node());
+    });
   }
   /// One body without a name.
-  Bodies(typename First::MeshType mesh, const Kinematics& kinematics,
-         const typename First::Material& material) requires(one_type)
-      : Bodies(one(std::move(mesh), material), kinematics) {}
-  Bodies(const Bodies&) = delete;
-  Bodies& operator=(const Bodies&) = delete;
+  BodiesOf(typename First::MeshType mesh, const Kinematics& kinematics,
+           const typename First::Material& material) requires(one_type)
+      : BodiesOf(one(std::move(mesh), material), kinematics) {}
+  BodiesOf(const BodiesOf&) = delete;
+  BodiesOf& operator=(const BodiesOf&) = delete;
 
   /// Calls visit(body) for each, in the order of their numbering within a type.
   template <class Visit>
   void for_each(Visit&& visit) {
-    std::apply([&](auto&... list) { (visit_list(list, visit), ...); }, lists_);
+    visit_lists(lists_, visit);
   }
   template <class Visit>
   void for_each(Visit&& visit) const {
-    std::apply([&](const auto&... list) { (visit_list(list, visit), ...); }, lists_);
+    visit_lists(lists_, visit);
   }
   /// Mass per reference volume of a body, by its number [mass / length^3].
-  Real density(std::size_t body) const requires has_inertia<Model> { return densities_[body]; }
+  Real density(std::size_t body) const requires weighed { return densities_[body]; }
   Index count() const { return count_; }
   Index node_count() const { return nodes_; }
   Index cell_count() const { return cells_; }
@@ -120,15 +162,10 @@ class Bodies {
   auto with_side(const std::string& name, Visit&& visit) const {
     std::optional<decltype(visit(std::declval<const First&>(), name))> result;
     for_each([&](const auto& body) {
-      if (!result && (count_ == 1 || name.starts_with(body.name() + ".")))
-        result.emplace(visit(body, name.starts_with(body.name() + ".") ? name.substr(body.name().size() + 1) : name));
+      if (!result && (count_ == 1 || detail::is_side_of(body.name(), name)))
+        result.emplace(visit(body, detail::own_side(body.name(), name)));
     });
-    if (!result) {
-      std::string known;
-      for_each([&](const auto& body) { known += (known.empty() ? "" : ", ") + body.name(); });
-      throw std::invalid_argument("there is no side called \"" + name +
-                                  "\": sides are named \"body.side\", and the bodies are " + known);
-    }
+    if (!result) detail::refuse_side(name, names());
     return std::move(*result);
   }
   /// The nodes of a side, by number.
@@ -151,13 +188,12 @@ class Bodies {
   }
 
   // The only body of a model that names no types of bodies.
-  const auto& only() const requires(!detail::NamesBodies<Model>) { return std::get<0>(lists_).front(); }
-  const auto& mesh() const requires(!detail::NamesBodies<Model>) { return only().mesh(); }
-  const Kinematics& kinematics() const requires(!detail::NamesBodies<Model>) { return only().kinematics(); }
-  const auto& material() const requires(!detail::NamesBodies<Model>) { return only().material(); }
+  const auto& only() const requires(!Lists::named) { return std::get<0>(lists_).front(); }
+  const auto& mesh() const requires(!Lists::named) { return only().mesh(); }
+  const Kinematics& kinematics() const requires(!Lists::named) { return only().kinematics(); }
+  const auto& material() const requires(!Lists::named) { return only().material(); }
 
   // --- The term: see BodyOf
-  // -------------------------------------------------------------------------------------------
 
   void couple(SparsityPattern& pattern) const {
     for_each([&](const auto& body) { body.couple(pattern); });
@@ -198,48 +234,51 @@ class Bodies {
   }
 
  private:
-  static BodyDescriptions<Model> one(typename First::MeshType mesh,
-                                     const typename First::Material& material) requires(one_type) {
-    BodyDescriptions<Model> list(1);
+  static Descriptions one(typename First::MeshType mesh, const typename First::Material& material) requires(one_type) {
+    Descriptions list(1);
     list[0].mesh = std::move(mesh);
     list[0].material = material;
     return list;
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for_each([&](const auto& body) { all.push_back(body.name()); });
+    return all;
+  }
+  template <class All, class Visit>
+  static void visit_lists(All& lists, Visit& visit) {
+    if constexpr (one_type)
+      for (auto& body : std::get<0>(lists)) visit(body);
+    else
+      std::apply([&](auto&... list) { (visit_list(list, visit), ...); }, lists);
   }
   template <class List, class Visit>
   static void visit_list(List& list, Visit& visit) {
     for (auto& body : list) visit(body);
   }
   template <class List, class Described>
-  void add_all(List& list, Described& described, const Kinematics& kinematics) {
+  [[gnu::cold]] void add_all(List& list, Described& described, const Kinematics& kinematics) {
     for (auto& d : described) {
       if constexpr (requires { d.material.validate(); }) d.material.validate();
-      if constexpr (has_inertia<Model>)
-        require::positive(d.density,
-                          ((d.name.empty() ? "inertia" : "body \"" + d.name + "\"") + ": the density").c_str());
+      if constexpr (weighed) detail::require_density(d.density, d.name);
       Index first = nodes_;
       for_each([&](const auto& other) {
-        if (other.name() == d.name)
-          throw std::invalid_argument(
-              "bodies: " + (d.name.empty() ? "one of several has no name" : "two are called \"" + d.name + "\""));
+        if (other.name() == d.name) detail::refuse_name(d.name);
         if (d.nodes_of.empty() || other.name() != d.nodes_of) return;
         first = other.first_node();
-        if (other.mesh().nodes != d.mesh.nodes)
-          throw std::invalid_argument("body \"" + d.name + "\": its mesh does not have the nodes of body \"" +
-                                      d.nodes_of + "\", which it is to share");
+        if (other.mesh().nodes != d.mesh.nodes) detail::refuse_shared_nodes(d.name, d.nodes_of, true);
       });
-      if (!d.nodes_of.empty() && first == nodes_)
-        throw std::invalid_argument("body \"" + d.name + "\": there is no body \"" + d.nodes_of +
-                                    "\" before it to share nodes with");
+      if (!d.nodes_of.empty() && first == nodes_) detail::refuse_shared_nodes(d.name, d.nodes_of, false);
       const Index end = first + d.mesh.node_count();
       list.emplace_back(std::move(d.mesh), kinematics, d.material, d.name, first, cells_);
-      if constexpr (has_inertia<Model>) densities_.push_back(d.density);
+      if constexpr (weighed) densities_.push_back(d.density);
       nodes_ = std::max(nodes_, end);
       cells_ += list.back().mesh().cell_count();
       ++count_;
     }
   }
   // Throws where a node is in no cell of any body: its matrix row would be zero.
-  void require_cells() const {
+  [[gnu::cold]] void require_cells() const {
     std::vector<bool> listed(static_cast<std::size_t>(nodes_), false);
     for_each([&](const auto& body) {
       for (const auto& cell : body.mesh().cells)
@@ -247,18 +286,24 @@ class Bodies {
     });
     for_each([&](const auto& body) {
       for (Index n = 0; n < body.mesh().node_count(); ++n)
-        if (!listed[static_cast<std::size_t>(body.first_node() + n)])
-          throw std::invalid_argument("body" + (body.name().empty() ? "" : " \"" + body.name() + "\"") + ": node " +
-                                      std::to_string(n) + " of the mesh is in no cell");
+        if (!listed[static_cast<std::size_t>(body.first_node() + n)]) detail::refuse_loose_node(body.name(), n);
     });
   }
 
-  typename Lists::Stored lists_;
+  Stored lists_;
   std::vector<Point> joined_;  // of several bodies
-  [[no_unique_address]] StoredIf<has_inertia<Model>, std::vector<Real>, Bodies> densities_;
+  [[no_unique_address]] StoredIf<weighed, std::vector<Real>, BodiesOf> densities_;
   Index count_ = 0, nodes_ = 0, cells_ = 0;
   Real extent_ = 0;
 };
+
+/// The bodies of a model.
+template <class Model>
+using Bodies = BodiesOf<typename Model::Kinematics, typename detail::BodiesIn<Model>::type, matrix_storage<Model>,
+                        has_inertia<Model>>;
+/// The same as the user gives them: a list, or with several types a tuple of a list each.
+template <class Model>
+using BodyDescriptions = typename Bodies<Model>::Descriptions;
 
 /// The only body of a model that names no types of bodies; models that differ in contact, inertia or solver share it.
 template <class Model>

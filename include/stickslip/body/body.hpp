@@ -35,8 +35,8 @@ class BodyOf {
   using Matrix = SparseMatrix<storage>;
 
   /// `first_node` and `first_cell` are its numbers in the problem. Throws std::invalid_argument, naming the fault.
-  BodyOf(MeshType mesh, const Kinematics& kinematics, const Material& material, std::string name = {},
-         Index first_node = 0, Index first_cell = 0)
+  [[gnu::cold]] BodyOf(MeshType mesh, const Kinematics& kinematics, const Material& material, std::string name = {},
+                       Index first_node = 0, Index first_cell = 0)
       : mesh_(std::move(mesh)),
         name_(std::move(name)),
         first_node_(first_node),

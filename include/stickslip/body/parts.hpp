@@ -16,28 +16,17 @@ class Parts {
  public:
   template <class BodiesType>
   Parts(const BodiesType& bodies, const IndexMap& dofs) : part_(static_cast<std::size_t>(bodies.node_count())) {
-    // Trees of nodes, each on its part's least one.
     std::iota(part_.begin(), part_.end(), 0);
-    const auto root = [&](Index n) {
-      while (at(n) != n) n = part_[static_cast<std::size_t>(n)] = at(at(n));
-      return n;
-    };
     bodies.for_each([&](const auto& body) {
       for (const auto& cell : body.mesh().cells)
-        for (const Index n : cell) {
-          const Index a = root(body.first_node() + cell[0]), b = root(body.first_node() + n);
-          part_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-        }
+        for (const Index n : cell) join(body.first_node() + cell[0], body.first_node() + n);
     });
     // Linear constraints join the parts of their nodes.
-    const Index dim = BodiesType::dim, nodes = static_cast<Index>(part_.size());
+    const Index dim = BodiesType::dim;
     for (const auto& d : dofs.dependents())
       for (const auto& m : d.masters)
-        if (d.component / dim < nodes && m.index / dim < nodes) {
-          const Index a = root(d.component / dim), b = root(m.index / dim);
-          part_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-        }
-    for (Index n = 0; n < static_cast<Index>(part_.size()); ++n) {
+        if (d.component / dim < nodes() && m.index / dim < nodes()) join(d.component / dim, m.index / dim);
+    for (Index n = 0; n < nodes(); ++n) {
       Index& part = part_[static_cast<std::size_t>(n)];
       part = part == n ? count_++ : at(part);  // that of an earlier node, numbered already
     }
@@ -52,7 +41,7 @@ class Parts {
   /// The name of a part: of the body that it is, or else of a side that lies in it, or else of a node. Empty where
   /// there is but one.
   template <class BodiesType>
-  std::string name(Index part, const BodiesType& bodies) const {
+  [[gnu::cold]] std::string name(Index part, const BodiesType& bodies) const {
     if (count_ == 1) return "";
     std::string name;
     bodies.for_each([&](const auto& body) {
@@ -75,6 +64,16 @@ class Parts {
   }
 
  private:
+  // Trees of nodes, each on its part's least one.
+  Index root(Index n) {
+    while (at(n) != n) n = part_[static_cast<std::size_t>(n)] = at(at(n));
+    return n;
+  }
+  void join(Index one, Index other) {
+    const Index a = root(one), b = root(other);
+    part_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+
   std::vector<Index> part_;
   Index count_ = 0;
 };

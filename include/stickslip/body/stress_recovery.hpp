@@ -87,14 +87,14 @@ class StressRecovery {
   Real errors_ = 0, whole_ = 0;
 };
 
-/// The recovered stresses of all bodies of a model.
-template <class Model>
+/// The recovered stresses of all bodies of a scene.
+template <class BodiesType>
 class StressRecoveries {
  public:
-  explicit StressRecoveries(const Bodies<Model>& bodies) {
+  explicit StressRecoveries(const BodiesType& bodies) {
     bodies.for_each([&](const auto& body) { of(body).emplace_back(body); });
   }
-  void update(const Bodies<Model>& bodies, const Field& u) {
+  void update(const BodiesType& bodies, const Field& u) {
     errors_ = whole_ = 0;
     std::apply([](auto&... next) { ((next.second = next.first.begin()), ...); }, recoveries_);
     bodies.for_each([&](const auto& body) {
@@ -111,17 +111,17 @@ class StressRecoveries {
  private:
   template <class Body>
   using ListOf = std::pair<std::list<StressRecovery<Body>>, typename std::list<StressRecovery<Body>>::iterator>;
-  template <class List>
+  template <class Stored>
   struct Lists;
-  template <class... Types>
-  struct Lists<BodyTypes<Types...>> {
-    using type = std::tuple<ListOf<detail::BodyOfType<Model, Types>>...>;
+  template <class... Bodies>
+  struct Lists<std::tuple<std::list<Bodies>...>> {
+    using type = std::tuple<ListOf<Bodies>...>;
   };
   template <class Body>
   auto& of(const Body&) {
     return std::get<ListOf<Body>>(recoveries_).first;
   }
-  typename Lists<BodyTypesOf<Model>>::type recoveries_;  // with the next to be updated
+  typename Lists<typename BodiesType::Stored>::type recoveries_;  // with the next to be updated
   Real errors_ = 0, whole_ = 0;
 };
 

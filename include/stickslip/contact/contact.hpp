@@ -29,24 +29,23 @@ template <class Model>
 using ToolOf = typename ToolKind<Model>::type;
 
 /// See Contact.
-template <class Model, class Friction>
-struct ContactOf {
-  static constexpr int dim = Model::Kinematics::dim;
-
+template <int dim, class Tool, class Enforcement, class Law, bool with_friction>
+struct ContactDescription {
   std::string side;             ///< named side of the mesh
-  ToolOf<Model> tool;           ///< in its own frame
+  Tool tool;                    ///< in its own frame
   rigid::Motion<dim> motion{};  ///< the frame's pose over time
-  [[no_unique_address]] StoredIf<Model::Enforcement::active && Friction::active, typename Friction::Law, ContactOf>
-      friction{};                             ///< parameters of the law
-  typename Model::Enforcement enforcement{};  ///< parameters of the enforcement
+  /// Parameters of the law.
+  [[no_unique_address]] StoredIf<with_friction, Law, ContactDescription> friction{};
+  Enforcement enforcement{};  ///< parameters of the enforcement
   Real start_depth = 0;  ///< that a node may lie inside the tool at the start [length]; at least its spacing is allowed
   std::string name = "";  ///< for results; the side's name if empty. Not {}: GCC 12 breaks down where it is left out
 };
 
 /// A side of the body against a rigid tool: what the user says of it. `Friction` is the model's, or one of its
-/// PerContact list.
+/// PerContact list. Of the model it depends on no more than it shows.
 template <class Model, class Friction = typename Model::Friction>
-using Contact = ContactOf<MechanicsOf<Model>, Friction>;
+using Contact = ContactDescription<Model::Kinematics::dim, ToolOf<Model>, typename Model::Enforcement,
+                                   typename Friction::Law, Model::Enforcement::active && Friction::active>;
 
 namespace detail {
 template <class Model, class Friction, template <class, class> class List>

@@ -43,12 +43,13 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
 
   /// Takes the positions at `time` for the start of sliding. Throws std::invalid_argument where they cannot be a start.
   void start(const Field& u, Real time) {
-    this->visit_start(u, time, [&](std::size_t k, [[maybe_unused]] const auto& at) {
-      states_.set_trial(k, {.gap = at.gap});
+    const auto points = this->start_points(u, time);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      states_.set_trial(k, {.gap = points[k].gap});
       Memory memory = memory_.converged(k);
-      if constexpr (with_friction) memory.friction.surface_coordinate = at.surface_coordinate;
+      if constexpr (with_friction) memory.friction.surface_coordinate = points[k].surface_coordinate;
       memory_.set_trial(k, memory);
-    });
+    }
     states_.commit();
     memory_.commit();
     reset_augmentations();
@@ -156,15 +157,15 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
     reset_augmentations();
   }
   /// The converged state. The measures are part of it: they come from the start, and outer iterations may scale them.
-  void serialize(Archive& archive) {
-    const std::string at = "contact " + name_ + ", ";
-    archive.check_equal(at + "side", this->side_);
-    states_.serialize(archive, at + "nodes");
-    measures_.serialize(archive, at + "weights");
-    pressures_.serialize(archive, at + "pressures");
-    memory_.serialize(archive, at + "memory");
-    archive(at + "force", this->force_);
-    archive(at + "summary", this->summary_);
+  [[gnu::cold]] void serialize(Archive& archive) {
+    const auto part = [this](const char* what) { return joined({"contact ", name_, ", ", what}); };
+    archive.check_equal(part("side"), this->side_);
+    states_.serialize(archive, part("nodes"));
+    measures_.serialize(archive, part("weights"));
+    pressures_.serialize(archive, part("pressures"));
+    memory_.serialize(archive, part("memory"));
+    archive(part("force"), this->force_);
+    archive(part("summary"), this->summary_);
     if (archive.loading()) reset_augmentations();
   }
   /// Energy that penetration and sticking store at the converged state, where the enforcement tells it.
@@ -186,7 +187,8 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
 
   template <class BodiesType>
   ContactHistory(const Contact<Model, Friction>& contact, const BodiesType& bodies)
-      : Nodes(contact, bodies),
+      : Nodes(contact.name, contact.side, contact.tool, contact.motion, contact.start_depth, contact.enforcement.per,
+              bodies),
         friction_(contact.friction),
         enforcement_(contact.enforcement),
         pressures_(nodes_.size()),

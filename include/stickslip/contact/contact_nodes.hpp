@@ -29,13 +29,13 @@ class ContactNodes : public ContactRecord<dim> {
 
   /// The warning that nodes are more than three times farther apart than the tool's smallest size: they may step over
   /// it. Empty where they are not, or the tool does not tell its size.
-  std::string warning_of_size() const {
+  [[gnu::cold]] std::string warning_of_size() const {
     if constexpr (requires { tool_.smallest_size(); }) {
       const Real size = tool_.smallest_size(), spacing = measures_.smallest_spacing();
       if (size < spacing / 3)
-        return "contact \"" + name_ + "\": the tool's smallest size, " + brief(size) +
-               ", is less than a third of the distance of the nodes of side \"" + this->side_ + "\", " +
-               brief(spacing) + ": they may step over it or snap around it";
+        return joined({"contact \"", name_, "\": the tool's smallest size, ", brief(size),
+                       ", is less than a third of the distance of the nodes of side \"", this->side_, "\", ",
+                       brief(spacing), ": they may step over it or snap around it"});
     }
     return "";
   }
@@ -108,24 +108,25 @@ class ContactNodes : public ContactRecord<dim> {
   using Record::name_, Record::motion_, Record::nodes_, Record::states_, Record::trial_summary_;
 
   // Throws std::invalid_argument, naming the contact, for parameters that cannot be.
-  template <class Description, class BodiesType>
-  ContactNodes(const Description& contact, const BodiesType& bodies)
-      : Record(contact.name, contact.side, contact.motion, bodies.side_nodes(contact.side)),
-        tool_(contact.tool),
+  template <class BodiesType>
+  ContactNodes(const std::string& name, const std::string& side, const Tool& tool, const rigid::Motion<dim>& motion,
+               Real start_depth, PenaltyPer per, const BodiesType& bodies)
+      : Record(name, side, motion, bodies.side_nodes(side)),
+        tool_(tool),
         X_(bodies.positions()),
-        start_depth_(contact.start_depth),
-        measures_(bodies.with_side(contact.side, [&](const auto& body, const std::string& side) {
-          return NodeMeasures<dim, takes_area>(body.mesh(), body.kinematics(), side, contact.enforcement.per);
+        start_depth_(start_depth),
+        measures_(bodies.with_side(side, [&](const auto& body, const std::string& own) {
+          return NodeMeasures<dim, takes_area>(body.mesh(), body.kinematics(), own, per);
         })) {
     if (tool_.empty()) this->refuse("the tool has no surface");
     if (!(start_depth_ >= 0)) this->refuse("start_depth must not be negative");
   }
 
-  // Calls visit(k, point) for the nodes where they are at the start. Throws std::invalid_argument where the tool has no
+  // The closest points to the nodes where they are at the start. Throws std::invalid_argument where the tool has no
   // position, or nodes lie deeper inside it than their neighbours are away: the tool is the wrong way round, or ends
   // too early.
-  template <class Visit>
-  void visit_start(const Field& u, Real time, Visit&& visit) {
+  [[gnu::cold]] std::vector<SurfacePoint<Real, dim>> start_points(const Field& u, Real time) const {
+    std::vector<SurfacePoint<Real, dim>> points;
     const Pose pose = motion_.at(time);
     if (const Failure f = not_rigid(pose)) this->refuse(describe(f.cause));
     std::size_t worst = 0;
@@ -133,15 +134,17 @@ class ContactNodes : public ContactRecord<dim> {
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const SurfacePoint<Real, dim> at = closest(pose.on_tool(position(u, k)));
       if (!std::isfinite(at.gap)) this->refuse("the tool's position or the distance to it is not finite at the start");
-      visit(k, at);
+      points.push_back(at);
       const Real e = -at.gap - std::max(measures_.spacing(k), start_depth_) * (1 + 1e-9);
       if (e > excess) worst = k, excess = e, depth = -at.gap;
     }
     if (excess > 0)
-      this->refuse("node " + std::to_string(nodes_[worst]) + " starts " + brief(depth) +
-                   " deep inside the tool, and its next neighbour is " + brief(measures_.spacing(worst)) +
-                   " away: the tool is the wrong way round (the body must be on the left of a chain, or where normals "
-                   "point), or ends too early; for so deep a fit set start_depth");
+      this->refuse(
+          joined({"node ", std::to_string(nodes_[worst]), " starts ", brief(depth),
+                  " deep inside the tool, and its next neighbour is ", brief(measures_.spacing(worst)),
+                  " away: the tool is the wrong way round (the body must be on the left of a chain, or where normals "
+                  "point), or ends too early; for so deep a fit set start_depth"}));
+    return points;
   }
   // A node in space.
   Point position(const Field& u, std::size_t k) const {

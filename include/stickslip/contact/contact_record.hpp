@@ -120,7 +120,7 @@ class ContactRecord {
         states_(nodes_.size()) {
     if (nodes_.empty()) refuse("the side has no nodes");
   }
-  [[noreturn]] void refuse(const std::string& reason) const {
+  [[noreturn, gnu::cold, gnu::noinline]] void refuse(const std::string& reason) const {
     throw std::invalid_argument("contact \"" + name_ + "\": " + reason);
   }
 

@@ -28,7 +28,7 @@ class IndexMap {
   };
 
   IndexMap() = default;
-  IndexMap(Index components, const std::vector<bool>& is_constrained)
+  [[gnu::cold]] IndexMap(Index components, const std::vector<bool>& is_constrained)
       : equation_(static_cast<std::size_t>(components)) {
     for (std::size_t i = 0; i < equation_.size(); ++i) {
       equation_[i] = is_constrained[i] ? constrained : unknowns_++;
@@ -36,7 +36,7 @@ class IndexMap {
     }
   }
   /// The same with dependent components, which must be among the constrained ones.
-  IndexMap(Index components, const std::vector<bool>& is_constrained, std::vector<Dependent> dependents)
+  [[gnu::cold]] IndexMap(Index components, const std::vector<bool>& is_constrained, std::vector<Dependent> dependents)
       : IndexMap(components, is_constrained) {
     dependents_ = std::move(dependents);
     for (std::size_t k = 0; k < dependents_.size(); ++k)
@@ -86,7 +86,7 @@ class IndexMap {
         if (equation(m.index) != constrained) field[d.component] += factor * m.weight * unknowns[equation(m.index)];
   }
   /// By which to tell whether another numbering is the same.
-  std::string fingerprint() const {
+  [[gnu::cold]] std::string fingerprint() const {
     Digest digest;
     digest.add(equation_.data(), equation_.size());
     for (const Dependent& d : dependents_) {

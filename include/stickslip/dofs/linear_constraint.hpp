@@ -4,6 +4,7 @@
 #include <stickslip/dofs/sparse_matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace stickslip {
@@ -16,13 +17,16 @@ class CondensedMatrix {
   /// K has the numbering `assembled`, in which constrained components have equations of their own.
   void build(const SparseView& K, const IndexMap& assembled, const IndexMap& unknowns) {
     SparsityPattern pattern(unknowns, storage);
-    for_each_product(K, assembled, unknowns,
-                     [&](Index, Index row, Index column, Real) { pattern.couple_equations(row, column); });
-    matrix_ = SparseMatrix<storage>(pattern);
     products_.clear();
+    std::vector<std::array<Index, 2>> equations;
     for_each_product(K, assembled, unknowns, [&](Index k, Index row, Index column, Real weight) {
-      products_.push_back({k, matrix_.entry(row, column), weight});
+      pattern.couple_equations(row, column);
+      equations.push_back({row, column});
+      products_.push_back({k, 0, weight});
     });
+    matrix_ = SparseMatrix<storage>(pattern);
+    for (std::size_t k = 0; k < products_.size(); ++k)
+      products_[k].to = matrix_.entry(equations[k][0], equations[k][1]);
   }
   SparseView condense(const SparseView& K) {
     matrix_.set_zero();
@@ -38,8 +42,8 @@ class CondensedMatrix {
   };
   // Calls visit(k, row, column, weight) for every entry of C^T K C that the entry k of K adds to.
   template <class Visit>
-  static void for_each_product(const SparseView& K, const IndexMap& assembled, const IndexMap& unknowns,
-                               Visit&& visit) {
+  [[gnu::cold]] static void for_each_product(const SparseView& K, const IndexMap& assembled, const IndexMap& unknowns,
+                                             Visit&& visit) {
     std::vector<std::vector<IndexMap::Weighted>> of(static_cast<std::size_t>(K.size));
     for (Index e = 0; e < K.size; ++e) of[static_cast<std::size_t>(e)] = unknowns.equations(assembled.component(e));
     for (Index j = 0; j < K.size; ++j)

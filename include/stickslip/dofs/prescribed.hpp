@@ -32,7 +32,7 @@ class Prescribed {
 
   /// Prescribes the displacement of a side's nodes; without a function they are held. Sides may share nodes, where they
   /// prescribe the same.
-  void drive(const SideValue& side, const std::vector<Index>& nodes) {
+  [[gnu::cold]] void drive(const SideValue& side, const std::vector<Index>& nodes) {
     const auto number = driven_.size();
     driven_.push_back({side.side, side.value, components(side, nodes), {}});
     for (const Index c : driven_.back().components) {
@@ -43,7 +43,7 @@ class Prescribed {
     }
   }
   /// Loads a side's nodes with parts of a total force that go with their areas.
-  void load(const SideValue& side, const std::vector<Index>& nodes, std::vector<Real> areas) {
+  [[gnu::cold]] void load(const SideValue& side, const std::vector<Index>& nodes, std::vector<Real> areas) {
     Real total = 0;
     for (const Real area : areas) total += area;
     for (Real& area : areas) area /= total;
@@ -53,14 +53,14 @@ class Prescribed {
   /// Makes a component depend on others, u = sum of weight * u_master + offset(time); without a function the offset is
   /// zero. Where a support prescribes the component, the support stands and the constraint is a fault: see
   /// `unknowns_of`.
-  void constrain(IndexMap::Dependent dependent, std::function<Real(Real)> offset = {}) {
+  [[gnu::cold]] void constrain(IndexMap::Dependent dependent, std::function<Real(Real)> offset = {}) {
     dependents_.push_back({std::move(dependent), std::move(offset)});
   }
 
   /// The unknowns that are left of so many components; with `assembled` the dependent ones among them, as forces and
   /// stiffness are assembled before constraints are condensed. Throws std::invalid_argument where a dependent component
   /// is prescribed, depends on a dependent one or does so twice.
-  IndexMap unknowns_of(Index components, bool assembled = false) const {
+  [[gnu::cold]] IndexMap unknowns_of(Index components, bool assembled = false) const {
     std::vector<bool> constrained(static_cast<std::size_t>(components), false);
     for (const Values& d : driven_)
       for (const Index c : d.components) constrained[static_cast<std::size_t>(c)] = true;
@@ -104,7 +104,7 @@ class Prescribed {
     return {};
   }
   /// Which supports prescribe different values of one component at `time`, in words; empty if none do.
-  std::string contradiction(Real time) const {
+  [[gnu::cold]] std::string contradiction(Real time) const {
     for (const Shared& s : shared_) {
       if (!contradicts(s, time)) continue;
       const Values &one = driven_[s.one], &other = driven_[s.other];

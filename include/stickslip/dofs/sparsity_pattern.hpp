@@ -31,7 +31,7 @@ class SparsityPattern {
   void couple_equations(Index row, Index column) { columns_[static_cast<std::size_t>(column)].push_back(row); }
 
   /// The pattern by columns, rows ascending: those of column j are row[column_start[j]] to row[column_start[j + 1]].
-  void compress(std::vector<Index>& column_start, std::vector<Index>& row) {
+  [[gnu::cold]] void compress(std::vector<Index>& column_start, std::vector<Index>& row) {
     column_start.assign(1, 0);
     row.clear();
     for (auto& column : columns_) {

@@ -277,6 +277,14 @@ class VtuSeries {
   void write(const Scene<Model>& problem) {
     write_vtu(directory_ / file(times_.size()), problem);
     times_.push_back(problem.time());
+    write_collection();
+  }
+
+  /// The times of the states so far, for io::save: a restarted run overwrites the later states.
+  void serialize(Archive& archive) { archive.resizable("series, times", times_); }
+
+ private:
+  void write_collection() const {
     NewFile collection(directory_ / (name_ + ".pvd"));
     std::ostream& out = collection.stream();
     out.precision(17);
@@ -287,11 +295,6 @@ class VtuSeries {
     out << "</Collection>\n</VTKFile>\n";
     collection.place();
   }
-
-  /// The times of the states so far, for io::save: a restarted run overwrites the later states.
-  void serialize(Archive& archive) { archive.resizable("series, times", times_); }
-
- private:
   std::string file(std::size_t k) const {
     std::string number = std::to_string(k);
     number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');

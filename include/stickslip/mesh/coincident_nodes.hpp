@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace stickslip::mesh {
@@ -19,10 +20,18 @@ struct Coincidence {
   std::array<Index, 2> first{};  ///< two coincident nodes
 };
 
+/// What a user is told of those of a body.
+[[gnu::cold]] inline std::string in_words(const Coincidence& apart, const std::string& body) {
+  return std::to_string(apart.nodes) + " nodes of the mesh" + (body.empty() ? "" : " of body \"" + body + "\"") +
+         " lie where another one does, nodes " + std::to_string(apart.first[0]) + " and " +
+         std::to_string(apart.first[1]) +
+         " (from 0) among them: what was meshed in blocks that were not joined comes apart there";
+}
+
 /// Finds nodes closer to each other than `tolerance` times the mesh's size: blocks that were meshed separately and
 /// never merged come apart at their interface, although their cell lists are valid.
 template <int dim, int nodes_per_cell>
-Coincidence coincident_nodes(const Mesh<dim, nodes_per_cell>& mesh, Real tolerance = 1e-9) {
+[[gnu::cold]] Coincidence coincident_nodes(const Mesh<dim, nodes_per_cell>& mesh, Real tolerance = 1e-9) {
   Coincidence found;
   if (mesh.nodes.empty()) return found;
   auto low = mesh.nodes[0], high = low;

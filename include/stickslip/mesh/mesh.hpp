@@ -130,7 +130,7 @@ struct Rectangle {
 
 /// Meshes a rectangle. Sides: left, right, bottom, top. Nodes are numbered along the direction with fewer cells first,
 /// for a small bandwidth of the matrices.
-inline Mesh<2, 4> rectangle(const Rectangle& r) {
+[[gnu::cold]] inline Mesh<2, 4> rectangle(const Rectangle& r) {
   if (r.cells[0] < 1 || r.cells[1] < 1)
     throw std::invalid_argument("mesh rectangle: needs at least one cell in each direction");
   if (!(r.size[0] > 0 && r.size[1] > 0) || !is_finite(r.size) || !is_finite(r.origin))
@@ -150,16 +150,16 @@ inline Mesh<2, 4> rectangle(const Rectangle& r) {
       mesh.cells.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
     }
 
-  const auto add_side = [&](const char* name, Index count, auto&& at) {
-    Side<2> side;
-    for (Index k = 0; k <= count; ++k) side.nodes.push_back(at(k));
-    for (Index k = 0; k < count; ++k) side.facets.push_back({at(k), at(k + 1)});
-    mesh.sides[name] = std::move(side);
+  // From node (i, j) on, in the direction (di, dj).
+  const auto add_side = [&](const char* name, Index count, Index i, Index j, Index di, Index dj) {
+    Side<2>& side = mesh.sides[name];
+    for (Index k = 0; k <= count; ++k) side.nodes.push_back(node(i + k * di, j + k * dj));
+    for (std::size_t k = 0; k + 1 < side.nodes.size(); ++k) side.facets.push_back({side.nodes[k], side.nodes[k + 1]});
   };
-  add_side("bottom", nx, [&](Index k) { return node(k, 0); });
-  add_side("right", ny, [&](Index k) { return node(nx, k); });
-  add_side("top", nx, [&](Index k) { return node(nx - k, ny); });
-  add_side("left", ny, [&](Index k) { return node(0, ny - k); });
+  add_side("bottom", nx, 0, 0, 1, 0);
+  add_side("right", ny, nx, 0, 0, 1);
+  add_side("top", nx, nx, ny, -1, 0);
+  add_side("left", ny, 0, ny, 0, -1);
   return mesh;
 }
 
@@ -172,7 +172,7 @@ struct Box {
 
 /// Meshes a box. Sides: left, right (along x), bottom, top (along y), back, front (along z). Nodes are numbered along
 /// the direction with the fewest cells first and along that with the most last, for a small bandwidth of the matrices.
-inline Mesh<3, 8> box(const Box& b) {
+[[gnu::cold]] inline Mesh<3, 8> box(const Box& b) {
   if (b.cells[0] < 1 || b.cells[1] < 1 || b.cells[2] < 1)
     throw std::invalid_argument("mesh box: needs at least one cell in each direction");
   if (!(b.size[0] > 0 && b.size[1] > 0 && b.size[2] > 0) || !is_finite(b.size) || !is_finite(b.origin))

@@ -14,7 +14,7 @@ namespace stickslip {
 
 namespace detail {
 // Throws because `what` names the node n, which a mesh of `nodes` nodes does not have.
-[[noreturn]] inline void refuse_node(const std::string& what, Index n, std::size_t nodes) {
+[[noreturn, gnu::cold]] inline void refuse_node(const std::string& what, Index n, std::size_t nodes) {
   throw std::invalid_argument(what + " names a node that does not exist, " + std::to_string(n) + ": the mesh has " +
                               std::to_string(nodes) + ", numbered from 0");
 }
@@ -23,7 +23,7 @@ namespace detail {
 /// Throws std::invalid_argument, naming the fault, for an invalid mesh: a cell or a side with nodes that do not exist,
 /// or a side with a node or a facet twice, which would count double.
 template <int dim, int nodes_per_cell>
-void require_sound(const Mesh<dim, nodes_per_cell>& mesh) {
+[[gnu::cold]] void require_sound(const Mesh<dim, nodes_per_cell>& mesh) {
   const std::size_t count = mesh.nodes.size();
   const auto exists = [count](Index n) { return n >= 0 && static_cast<std::size_t>(n) < count; };
   for (std::size_t e = 0; e < mesh.cells.size(); ++e)

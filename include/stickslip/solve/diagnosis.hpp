@@ -15,12 +15,12 @@
 namespace stickslip {
 
 /// Names the contacts with friction whose summary of the last evaluation passes a test; none where that failed.
-template <class Pairs, class Test>
-std::string contacts_with(const Pairs& pairs, Test&& test) {
+template <class Pairs>
+std::string contacts_with(const Pairs& pairs, bool (*test)(const ContactSummary&)) {
   std::string names;
   for_each_friction(pairs, [&](const auto& pair) {
     if (pair.evaluated() && pair.trial_summary().touching > 0 && test(pair.trial_summary()))
-      names += (names.empty() ? "contact \"" : ", contact \"") + pair.name() + "\"";
+      names += joined({names.empty() ? "contact \"" : ", contact \"", pair.name(), "\""});
   });
   return names;
 }
@@ -37,22 +37,45 @@ template <class Pairs>
 std::string turning_contacts(const Pairs& pairs) {
   std::string names;
   for_each_friction(pairs, [&](const auto& pair) {
-    if (pair.slip_turns_too_far()) names += (names.empty() ? "contact " : ", ") + pair.name();
+    if (pair.slip_turns_too_far()) names += joined({names.empty() ? "contact " : ", ", pair.name()});
   });
   return names;
 }
 
-/// Why a system has no solution, or many: what does not hold a part of the body, and what makes round-off of its
-/// forces.
-template <class Model>
-class Diagnosis {
- public:
-  static constexpr int dim = Model::Kinematics::dim;
+namespace detail {
+// What of a scene makes the most round-off, in words.
+struct RoundoffSource {
+  Real worst;  // ratio of stiffnesses that is still sound, or the worst found
+  std::string words{};
 
-  explicit Diagnosis(System<Model>& system)
-      : system_(system), parts_(system.bodies(), system.dofs()), modes_(system.bodies().positions(), parts_) {
-    constexpr Index first = Model::Kinematics::hoop ? dim - 1 : 0;  // in axisymmetry the shift along the axis alone
-    const IndexMap& dofs = system.dofs();
+  [[gnu::cold]] void consider_bulk_modulus(Real nu, const std::string& body) {
+    const Real ratio = 2 * (1 + nu) / (3 * (1 - 2 * nu));
+    if (!(ratio > worst)) return;
+    worst = ratio;
+    words = "the bulk modulus" + (body.empty() ? "" : " of body \"" + body + "\"") + " is " + brief(ratio, 2) +
+            " times the shear modulus, at a Poisson's ratio " + brief(0.5 - nu, 2) + " below 0.5";
+  }
+  [[gnu::cold]] void consider_penalty(Real ratio, const std::string& contact) {
+    if (!(ratio > worst)) return;
+    worst = ratio;
+    words = "the penalty of contact \"" + contact + "\" is " + brief(ratio, 2) + " times the body's stiffness";
+  }
+  [[gnu::cold]] static std::string coordinates(Real reach, Real extent) {
+    return "coordinates of up to " + brief(reach, 2) + ", of a body that measures " + brief(extent, 2) +
+           " from its centre, give gaps to no better than " + brief(std::numeric_limits<Real>::epsilon() * reach, 2);
+  }
+};
+
+// What holds the parts of bodies, whatever contact and solver of the model.
+template <class Kinematics>
+class PartSupports {
+ public:
+  static constexpr int dim = Kinematics::dim;
+
+  template <class BodiesType>
+  PartSupports(const BodiesType& bodies, const IndexMap& dofs)
+      : parts_(bodies, dofs), modes_(bodies.positions(), parts_) {
+    constexpr Index first = Kinematics::hoop ? dim - 1 : 0;  // in axisymmetry the shift along the axis alone
     std::vector<bool> held(static_cast<std::size_t>(parts_.count() * dim), false);
     for (Index c = 0; c < parts_.nodes() * dim; ++c)
       if (dofs.supported(c)) held[static_cast<std::size_t>(parts_.at(c / dim) * dim + c % dim)] = true;
@@ -63,14 +86,15 @@ class Diagnosis {
           break;
         }
   }
+  PartSupports(const PartSupports&) = delete;
+  PartSupports& operator=(const PartSupports&) = delete;
 
-  /// A part of the body with a rigid-body mode at the displacements u that neither supports nor the tangent of the last
-  /// evaluation resist. With `moved`, one that has moved so in that displacement besides: a motion that balance leaves
-  /// open. -1 if there is none; see `part_name`.
-  Index free_part(const Field& u, const Field* moved = nullptr) {
-    modes_.take(u, system_.dofs(), system_.tangent());
+ protected:
+  // See Diagnosis::free_part; `imbalance` is the norm of the residual.
+  Index free_part(const Field& u, const IndexMap& dofs, const SparseView& tangent, Real imbalance, const Field* moved) {
+    modes_.take(u, dofs, tangent);
     for (Index part = 0; part < parts_.count(); ++part) {
-      const std::vector<Field> free = modes_.zero_energy_modes(part, moved ? 10 * system_.forces().norm : 0);
+      const std::vector<Field> free = modes_.zero_energy_modes(part, moved ? 10 * imbalance : 0);
       if (free.empty()) continue;
       if (!moved) return part;
       Real share = 0, whole = 0;
@@ -80,6 +104,28 @@ class Diagnosis {
       if (share > 1e-6 * whole) return part;
     }
     return -1;
+  }
+
+  Parts parts_;
+  RigidBodyModes<Kinematics> modes_;
+  std::vector<Index> unsupported_;  // parts that only a tool could hold against some shift
+};
+}  // namespace detail
+
+/// Why a system has no solution, or many: what does not hold a part of the body, and what makes round-off of its
+/// forces.
+template <class Model>
+class Diagnosis : public detail::PartSupports<typename Model::Kinematics> {
+ public:
+  using Base = detail::PartSupports<typename Model::Kinematics>;
+
+  explicit Diagnosis(System<Model>& system) : Base(system.bodies(), system.dofs()), system_(system) {}
+
+  /// A part of the body with a rigid-body mode at the displacements u that neither supports nor the tangent of the last
+  /// evaluation resist. With `moved`, one that has moved so in that displacement besides: a motion that balance leaves
+  /// open. -1 if there is none; see `part_name`.
+  Index free_part(const Field& u, const Field* moved = nullptr) {
+    return Base::free_part(u, system_.dofs(), system_.tangent(), system_.forces().norm, moved);
   }
   /// A part of the body that may shift in some direction, for it has no support there and touches no tool; at the start
   /// of a run (`ever`), for it has no node that could. -1 if there is none. Deformation resists no shift.
@@ -114,34 +160,23 @@ class Diagnosis {
   /// there is any; with `by_gaps` else the coordinates, to whose round-off the body answers. Spoils the last
   /// evaluation.
   std::string roundoff_source(const Field& u, bool by_gaps, Real worst) {
-    std::string words;
-    const auto accuse = [&](Real ratio, const std::string& text) {
-      if (!(ratio > worst)) return;
-      worst = ratio;
-      words = text;
-    };
-    for_each_poisson([&](Real nu, const std::string& name) {
-      const Real ratio = 2 * (1 + nu) / (3 * (1 - 2 * nu));
-      accuse(ratio, "the bulk modulus" + (name.empty() ? "" : " of body \"" + name + "\"") + " is " + brief(ratio, 2) +
-                        " times the shear modulus, at a Poisson's ratio " + brief(0.5 - nu, 2) + " below 0.5");
-    });
-    if (by_gaps) {
-      if (!words.empty()) return words;
-      const Real reach = system_.bodies().extent() + u.lpNorm<Eigen::Infinity>();
-      return "coordinates of up to " + brief(reach, 2) + ", of a body that measures " + brief(modes_.extent(), 2) +
-             " from its centre, give gaps to no better than " + brief(std::numeric_limits<Real>::epsilon() * reach, 2);
-    }
+    detail::RoundoffSource source{worst};
+    for_each_poisson([&](Real nu, const std::string& name) { source.consider_bulk_modulus(nu, name); });
+    if (by_gaps)
+      return source.words.empty()
+                 ? source.coordinates(system_.bodies().extent() + u.lpNorm<Eigen::Infinity>(), modes_.extent())
+                 : source.words;
     const Real stiffness = has_contact<Model> ? system_.body_stiffness(u) : 0;
     if (stiffness > 0)
       for_each_contact(system_.pairs(), [&](const auto& pair) {
-        const Real ratio = pair.largest_stiffness() / stiffness;
-        accuse(ratio,
-               "the penalty of contact \"" + pair.name() + "\" is " + brief(ratio, 2) + " times the body's stiffness");
+        source.consider_penalty(pair.largest_stiffness() / stiffness, pair.name());
       });
-    return words;
+    return source.words;
   }
 
  private:
+  using Base::parts_, Base::modes_, Base::unsupported_;
+
   // Calls visit(nu, name) for the bodies whose material tells its Poisson's ratio.
   template <class Visit>
   void for_each_poisson(Visit&& visit) const {
@@ -151,9 +186,6 @@ class Diagnosis {
   }
 
   System<Model>& system_;
-  Parts parts_;
-  RigidBodyModes<typename Model::Kinematics> modes_;
-  std::vector<Index> unsupported_;  // parts that only a tool could hold against some shift
 };
 
 }  // namespace stickslip

@@ -91,16 +91,15 @@ class RunState {
   }
   // Completes a step that is accepted: estimates its errors (theory.md, section 6.6), watches its negative pivots, lets
   // step control choose the next step and adds it to the report. `first_iterations` are those of the first outer
-  // iteration, `error` is that of the time integration over its tolerance, `space` gives the mesh's error.
-  template <class Space>
-  void complete_step(StepReport step, Index first_iterations, Real error, Space&& space) {
+  // iteration, `error` is that of the time integration over its tolerance, `space` the mesh's error.
+  void complete_step(StepReport step, Index first_iterations, Real error, Real space) {
     const ContactSummary& contact = step.contact;
     const auto part = [&](Real work) { return step.work > 0 ? std::abs(work) / step.work : 0; };
     step.lag = contact.friction_capacity > 0 ? contact.lag / contact.friction_capacity : 0;
     step.errors = {.lag = part(contact.lag_work),
                    .time = now_.predictor.error(step.work, step.dt),
                    .penetration = part(contact.penalty_work),
-                   .space = space()};
+                   .space = space};
     now_.predictor.take(step.work, step.dt);
     watch_pivots(step.negative_pivots);
 

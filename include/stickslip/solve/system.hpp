@@ -46,10 +46,84 @@ struct LinearConstraint {
   std::function<Real(Real)> offset{};  ///< [length]; none: zero
 };
 
+namespace detail {
+// What of a system depends on no model: the unknowns, supports and loads, and the sums of the forces by component.
+class Balance {
+ protected:
+  template <class BodiesType>
+  [[gnu::cold]] Balance(const BodiesType& bodies, const std::vector<SideValue>& driven,
+                        const std::vector<SideValue>& loads, const std::vector<LinearConstraint>& constraints,
+                        Index components)
+      : prescribed_(BodiesType::dim, bodies.extent()) {
+    for (const SideValue& d : driven) prescribed_.drive(d, bodies.side_nodes(d.side));
+    for (const SideValue& l : loads) prescribed_.load(l, bodies.side_nodes(l.side), bodies.side_areas(l.side));
+    number(constraints, components);
+  }
+
+  // The numbering in which forces and stiffness are assembled: that of the unknowns, unless linear constraints are
+  // condensed.
+  bool condenses() const { return !dofs_.dependents().empty(); }
+  const IndexMap& assembled() const { return condenses() ? assembled_ : dofs_; }
+
+  // The balance of the contact forces, or, without inertia, of all forces at `time`.
+  Failure sum_up(Real time, bool with_inertia, const Field* constraint_force) {
+    forces_.external.setZero();
+    if (const Failure f = prescribed_.add_loads(time, forces_.external)) return f;
+    if (with_inertia)
+      forces_.balance = forces_.contact;
+    else
+      forces_.balance = forces_.internal + forces_.contact - forces_.external;
+    if (constraint_force) forces_.balance += *constraint_force;
+    return {};
+  }
+  // The residual and its norm.
+  Failure take_residual() {
+    dofs_.gather(forces_.balance, forces_.residual);
+    forces_.norm = space_.norm(forces_.residual);
+    return std::isfinite(forces_.norm) ? Failure{} : Failure{FailureCause::not_finite, {}};
+  }
+  // The merit of an iterate (theory.md, eq. 6.13), with the `share` of the constraint forces in the residual.
+  Real take_merit(Real share, Real constraints) {
+    dofs_.gather(constraint_force_, open_);
+    open_ = forces_.residual - share * open_;
+    const Real imbalance = space_.norm(open_);
+    forces_.norm = std::max({forces_.norm, imbalance, share * space_.norm(constraint_force_)});
+    return std::hypot(imbalance, share * std::sqrt(space_.sum(constraints)));
+  }
+  // The reactions of the state that is committed; a support takes the force of contact itself.
+  void take_reactions(Real contact_share) {
+    forces_.reaction = forces_.balance;
+    if (const Real share = contact_share - 1; share != 0)
+      for (Index c = 0; c < dofs_.components(); ++c)
+        if (dofs_.supported(c)) forces_.reaction[c] -= share * forces_.contact[c];
+  }
+
+  [[no_unique_address]] SerialSpace space_{};
+  IndexMap dofs_;
+  IndexMap assembled_;  // with linear constraints
+  Prescribed prescribed_;
+  NodalForces forces_;
+  Field constraint_force_;  // that closing the condensed unknowns' constraints adds, by component
+  Field open_;              // the residual without it
+
+ private:
+  [[gnu::cold]] void number(const std::vector<LinearConstraint>& constraints, Index components) {
+    for (const auto& [dependent, offset] : constraints) prescribed_.constrain(dependent, offset);
+    dofs_ = prescribed_.unknowns_of(components);
+    if (condenses()) assembled_ = prescribed_.unknowns_of(components, true);
+    for (Field* f : {&forces_.internal, &forces_.contact, &forces_.external, &forces_.balance, &forces_.reaction,
+                     &constraint_force_})
+      f->setZero(components);
+    forces_.residual.setZero(dofs_.unknowns());
+    open_ = forces_.residual;
+  }
+};
+}  // namespace detail
+
 /// The discrete balance of a scene: residual and tangent as a function of the nodal displacements (theory.md, eq. 1.1),
 /// the sum of its terms: bodies, contact pairs and inertia. What a model does not have is an empty term.
 template <class Model>
-class System {
+class System : detail::Balance {
   static_assert(CheckModel<Model>::ok);
 
  public:
@@ -66,31 +140,17 @@ class System {
   System(BodiesType& bodies, Pairs& pairs, Inertia& inertia, const std::vector<SideValue>& driven,
          const std::vector<SideValue>& loads, Index revision = 1, TermsOf<Model>* terms = nullptr,
          const std::vector<LinearConstraint>& constraints = {})
-      : bodies_(bodies),
+      : Balance(bodies, driven, loads, constraints, components_of(bodies, terms)),
+        bodies_(bodies),
         pairs_(pairs),
         inertia_(inertia),
         terms_(terms),
-        prescribed_(dim, bodies.extent()),
         pattern_revision_(revision) {
-    for (const SideValue& d : driven) prescribed_.drive(d, bodies.side_nodes(d.side));
-    for (const SideValue& l : loads) prescribed_.load(l, bodies.side_nodes(l.side), bodies.side_areas(l.side));
-    Index components = bodies.node_count() * dim;
-    for_each_term([&](const auto& term) { components += term.unknowns(); });
-    for (const auto& [dependent, offset] : constraints) prescribed_.constrain(dependent, offset);
-    dofs_ = prescribed_.unknowns_of(components);
-    if (condenses()) {
-      assembled_ = prescribed_.unknowns_of(components, true);
-      if constexpr (stores_couplings<Model>)
-        throw std::invalid_argument(
-            "linear constraint: a solver that corrects a symmetric factor for sliding nodes takes none; take a general "
-            "solver");
-    }
+    if (stores_couplings<Model> && condenses())
+      throw std::invalid_argument(
+          "linear constraint: a solver that corrects a symmetric factor for sliding nodes takes none; take a general "
+          "solver");
     connect();
-    for (Field* f : {&forces_.internal, &forces_.contact, &forces_.external, &forces_.balance, &forces_.reaction,
-                     &constraint_force_})
-      f->setZero(components);
-    forces_.residual.setZero(dofs_.unknowns());
-    open_ = forces_.residual;
   }
 
   const IndexMap& dofs() const { return dofs_; }
@@ -178,10 +238,7 @@ class System {
   void commit() {
     assert(evaluated_ && "System::commit needs a System::evaluate without failure since the last commit");
     evaluated_ = false;
-    forces_.reaction = forces_.balance;
-    if (const Real share = inertia_.contact_share() - 1; share != 0)  // a support takes the force of contact itself
-      for (Index c = 0; c < dofs_.components(); ++c)
-        if (dofs_.supported(c)) forces_.reaction[c] -= share * forces_.contact[c];
+    take_reactions(inertia_.contact_share());
     bodies_.commit();
     for_each_term([](auto& term) { term.commit(); });
     for_each_contact(pairs_, [](auto& pair) { pair.commit(); });
@@ -191,7 +248,7 @@ class System {
 
  private:
   // Makes the pattern, and the terms' maps into it.
-  void connect() {
+  [[gnu::cold]] void connect() {
     const IndexMap& dofs = assembled();
     SparsityPattern pattern(dofs, matrix_storage<Model>);
     bodies_.couple(pattern);
@@ -207,10 +264,12 @@ class System {
     inertia_.connect(matrix_);
     if (condenses()) condensed_.build(matrix_.view(), dofs, dofs_);
   }
-  // The numbering in which forces and stiffness are assembled: that of the unknowns, unless linear constraints are
-  // condensed.
-  bool condenses() const { return !dofs_.dependents().empty(); }
-  const IndexMap& assembled() const { return condenses() ? assembled_ : dofs_; }
+  static Index components_of(const BodiesType& bodies, [[maybe_unused]] const TermsOf<Model>* terms) {
+    Index components = bodies.node_count() * dim;
+    if constexpr (std::tuple_size_v < TermsOf < Model >>> 0)
+      std::apply([&](const auto&... term) { ((components += term.unknowns()), ...); }, *terms);
+    return components;
+  }
   template <class Visit>
   void for_each_term(Visit&& visit) const {
     if constexpr (std::tuple_size_v < TermsOf < Model >>> 0)
@@ -255,9 +314,7 @@ class System {
       with_mass_ = true;
       couplings_.scale(inertia_.contact_share());
     }
-    dofs_.gather(forces_.balance, forces_.residual);
-    forces_.norm = space_.norm(forces_.residual);
-    if (!std::isfinite(forces_.norm)) return {FailureCause::not_finite, {}};
+    if (const Failure f = take_residual()) return f;
     if (ev.want != Want::residual && condenses()) condensed_.condense(matrix_.view());
     has_tangent_ = ev.want != Want::residual;
     evaluated_ = true;
@@ -297,14 +354,7 @@ class System {
       });
       if (failure) return failure;
     }
-    forces_.external.setZero();
-    if (const Failure f = prescribed_.add_loads(ev.time, forces_.external)) return f;
-    if constexpr (has_inertia<Model>)
-      forces_.balance = forces_.contact;
-    else
-      forces_.balance = forces_.internal + forces_.contact - forces_.external;
-    if (ev.constraint_force) forces_.balance += *ev.constraint_force;
-    return {};
+    return sum_up(ev.time, has_inertia<Model>, ev.constraint_force);
   }
   // The stiffnesses that round-off meets, once an iteration.
   void measure_stiffness() {
@@ -326,16 +376,9 @@ class System {
   Pairs& pairs_;
   Inertia& inertia_;
   TermsOf<Model>* terms_;  // null where there are none
-  [[no_unique_address]] Space space_{};
-  IndexMap dofs_;
-  IndexMap assembled_;  // with linear constraints
   Matrix matrix_;
   CondensedMatrix<matrix_storage<Model>> condensed_;
   [[no_unique_address]] Couplings couplings_;
-  Prescribed prescribed_;
-  NodalForces forces_;
-  Field constraint_force_;                     // that closing the condensed unknowns' constraints adds, by component
-  Field open_;                                 // the residual without it
   Real stiffness_ = 0, stick_stiffness_ = 0;   // of the body, its inertia included, and of sticking [force / length]
   bool measured_ = false, with_mass_ = false;  // whether they are those of this iteration, and with inertia
   bool has_tangent_ = false, evaluated_ = false;
@@ -407,17 +450,11 @@ class System<Model>::Iterate {
     s.constraint_force_.setZero();
     if (const Failure f = s.evaluate({u, time, dt, want, driven, again, &s.constraint_force_, s.matrix_, s.couplings_}))
       return f;
-    const Real share = s.inertia_.contact_share();
-    s.dofs_.gather(s.constraint_force_, s.open_);
-    s.open_ = s.forces_.residual - share * s.open_;
-    const Real imbalance = s.space_.norm(s.open_);
     Real constraints = s.bodies_.constraint_merit();
     s.for_each_term([&](const auto& term) { constraints += term.constraint_merit(); });
     if constexpr (weighs_body) constraints *= std::pow(s.inertia_.body_share(), 2);
     for_each_contact(s.pairs_, [&](const auto& pair) { constraints += pair.constraint_merit(); });
-    constraints = s.space_.sum(constraints);
-    s.forces_.norm = std::max({s.forces_.norm, imbalance, share * s.space_.norm(s.constraint_force_)});
-    merit_ = std::hypot(imbalance, share * std::sqrt(constraints));
+    merit_ = s.take_merit(s.inertia_.contact_share(), constraints);
     return {};
   }
 
