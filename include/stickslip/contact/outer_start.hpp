@@ -92,8 +92,7 @@ class StartsLagged : public StartsAugmented<Memory> {
   }
   Memory at(std::size_t k, const History<Memory>& history) const {
     Memory memory = (*this)[k];
-    if (uses_own(k, history))
-      memory.friction.pressure = Pressure::from_pressure(own_pressure_[static_cast<Index>(k)]);
+    if (uses_own(k, history)) memory.friction.pressure = Pressure::from_pressure(own_pressure_[static_cast<Index>(k)]);
     return memory;
   }
   /// The memory at the end of the step. That of a node with a bound of the step's own goes on from the converged one.
@@ -153,7 +152,7 @@ class StartsLagged : public StartsAugmented<Memory> {
  private:
   static constexpr int most_looks = 14;
 
-  // At a first contact there is no converged pressure: none is foretold for a step without duration.
+  // At a first contact there is no converged pressure: none is foretold even for a step without duration.
   bool uses_own(std::size_t k, const History<Memory>& history) const {
     return uses_own_ && (own_of_all_ || !(Pressure::pressure(Real(0), history.converged(k).friction.pressure, 0) > 0));
   }
