@@ -51,21 +51,22 @@ mesh::Rectangle at(Real x) {
   return {.origin = {x, 0}, .size = {10, 5}, .cells = {8, 4}};
 }
 template <class M, class F = typename M::Friction>
-Contact<M> under(const std::string& side, Real x, const std::string& name, Real gap = 0) {
+Contact<M> under(const std::string& side, Real x, const std::string& name, const V& shift = V::Zero()) {
   return {.side = side,
-          .tool = rigid::disc({x + 5, -20 - gap}, 20),
+          .tool = rigid::disc(V(x + 5, -20) + shift, 20),
           .friction = {.mu = 0.2},
           .enforcement = {.normal = 1e6, .tangential = 1e5},
           .name = name};
 }
 const auto down = [](Real t) { return -0.3 * t; };
-constexpr Real late = 0.2;  // the second body touches its tool when the first one is pressed already
+// The first body touches its tool, on a slope, when the stiffer second one is pressed already.
+const V late(4, -0.1);
 
 Problem<Two>::Parameters pair() {
   return {
       .bodies = {{{.name = "blank", .mesh = mesh::rectangle(at(0)), .material = material<FiniteJ2<LinearHardening>>()}},
                  {{.name = "die", .mesh = mesh::rectangle(at(30)), .material = material<Hencky>()}}},
-      .contacts = {under<Two>("blank.bottom", 0, "first"), under<Two>("die.bottom", 30, "second", late)}};
+      .contacts = {under<Two>("blank.bottom", 0, "first", late), under<Two>("die.bottom", 30, "second")}};
 }
 template <class P>
 void press(P& problem, const std::string& body) {
@@ -78,10 +79,10 @@ TEST_CASE("two bodies of different materials in one problem are what each is alo
   press(both, "die.");
   Problem<Alone> blank{{.body = mesh::rectangle(at(0)),
                         .material = material<FiniteJ2<LinearHardening>>(),
-                        .contacts = {under<Alone>("bottom", 0, "first")}}};
+                        .contacts = {under<Alone>("bottom", 0, "first", late)}}};
   Problem<AloneElastic> die{{.body = mesh::rectangle(at(30)),
                              .material = material<Hencky>(),
-                             .contacts = {under<AloneElastic>("bottom", 30, "second", late)}}};
+                             .contacts = {under<AloneElastic>("bottom", 30, "second")}}};
   press(blank, "");
   press(die, "");
   const MarchOptions options{.end = 1, .steps = 8, .tolerance = 1e-10};
