@@ -94,7 +94,6 @@ class March : public RunState {
   void watch_energy(const StepReport& step);
   void watch_bending(const Field& u);
   void retry(Iterate& iterate, Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model>;
-  void bound_first(Iterate& iterate, Field& u, Real time, Real dt, Attempt& attempt);
 
   // Whether Newton's method went astray, at forces that could all be evaluated.
   static bool finds_no_balance(FailureCause cause) {
@@ -282,29 +281,6 @@ void March<Model>::retry(Iterate& iterate, Field& u, Real time, Real dt,
   newton = again;
 }
 
-/// Solves the step once more where first contacts bear much, with the slip bounds of the pressures found (theory.md,
-/// eq. 5.11). Where there is no balance with these, the solution without them stays.
-template <class Model>
-void March<Model>::bound_first([[maybe_unused]] Iterate& iterate, [[maybe_unused]] Field& u, [[maybe_unused]] Real time,
-                               [[maybe_unused]] Real dt, [[maybe_unused]] Attempt& attempt) {
-  if constexpr (has_lag<Model>() && !has_outer_iterations<Model>()) {
-    if (!bound_first_contacts(problem_.pairs_)) return;
-    NewtonReport& newton = attempt.newton;
-    outer_guess_ = u;
-    Index iterations = newton.iterations;
-    newton = newton_.solve(iterate, u, time, dt);
-    newton.iterations = iterations += newton.iterations;
-    ++attempt.outer_iterations;
-    if (!newton.failure || newton.failure.cause == FailureCause::not_converged) return;
-    for_each_lagging(problem_.pairs_, [](auto& pair) { pair.reset_augmentations(); });
-    u = outer_guess_;
-    iterate.restart();
-    newton_.judge_anew();
-    newton = newton_.solve(iterate, u, time, dt);
-    newton.iterations += iterations;
-  }
-}
-
 /// Warns once of a thin cell that bends although its element locks in bending. Looks at every eighth step.
 template <class Model>
 void March<Model>::watch_bending([[maybe_unused]] const Field& u) {
@@ -388,8 +364,7 @@ typename March<Model>::Attempt March<Model>::attempt(Iterate& iterate, Field& u,
     }
   }
   a.first_iterations = newton.iterations;
-  if (!newton.failure) bound_first(iterate, u, time, dt, a);
-  if (!newton.failure) a.outer_iterations += iterate_outer(iterate, u, time, dt, newton) - 1;
+  if (!newton.failure) a.outer_iterations = iterate_outer(iterate, u, time, dt, newton);
   if (!newton.failure) newton.failure = first_failure(problem_.pairs_, [](auto& pair) { return pair.slip_turned(); });
   if (!newton.failure && options_.detect_tunnelling)
     for_each_contact(problem_.pairs_, [&](auto& pair) {

@@ -15,7 +15,7 @@ namespace typed {
 /// What the model says of itself.
 struct Facts {
   int dim;
-  bool hoop, contact, friction, wall, augmented, follows, outer_iterations, lags, plastic, inertia;
+  bool hoop, contact, friction, wall, augmented, follows, outer_iterations, plastic, inertia;
   Symmetry material, system, storage;
 };
 /// One step of a run; vectors of the plane have a third component of zero.
@@ -168,7 +168,6 @@ void run() {
          .augmented = is_augmented<typename Model::Enforcement>,
          .follows = has_friction<Model> && friction_symmetry<typename Model::Friction>() == Symmetry::general,
          .outer_iterations = has_outer_iterations<Model>(),
-         .lags = has_lag<Model>(),
          .plastic = is_plastic<typename Model::Material>,
          .inertia = has_inertia<Model>,
          .material = Model::Material::symmetry,

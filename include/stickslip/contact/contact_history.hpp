@@ -66,7 +66,7 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
   void predict(const Field& du, Real fraction) {
     for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_.predict(k, at_node<dim>(du, nodes_[k]), fraction);
     reversals_.next_search(fraction == 0);
-    if (fraction != 0) start_.predict([this](std::size_t k) { return pressures_.predicted(k); });
+    if (fraction != 0) start_.predict([this](std::size_t k) { return pressures_.predicted(k); }, memory_);
   }
   void set_step(Real length) { pressures_.set_step(length); }
   Real constraint_merit() const { return pressures_.constraint_merit(); }
@@ -139,14 +139,6 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
   Real pressure_response_squared() const requires lags {
     return start_.pressure_response_squared([this](std::size_t k) { return current_pressure(k); });
   }
-  /// Calls visit(k) for the touching nodes at their first contact, for whose bounds no pressure is known.
-  template <class Visit>
-  void visit_first_contacts(Visit&& visit) const requires lags {
-    for (std::size_t k = 0; k < nodes_.size(); ++k)
-      if (start_.is_first_contact(k, memory_, dt_)) visit(k);
-  }
-  /// Makes the bound of a node at its first contact be of its current pressure.
-  void bound_by_current_pressure(std::size_t k) requires lags { start_.set_own_pressure(k, current_pressure(k)); }
 
   /// Makes the last evaluation's memory and forces the converged ones.
   void commit() {

@@ -117,7 +117,7 @@ class ContactPair : public ContactHistory<Model, Friction_> {
     SurfacePoint<Real, dim> at = this->closest(pose.on_tool(x));
     if (!std::isfinite(at.gap)) return FailureCause::not_finite;
     const bool iterating = ev.constraint_force != nullptr;
-    Memory old = start_.at(k, memory_, ev.dt);
+    Memory old = start_.at(k, memory_);
     const Real penalty = penalty_pressure(enforcement_, measures_.tributary()[k], at, old);
     const Real pressure = iterating ? pressures_[k].value : penalty;
     Vec<Real, surface_coordinates<dim>> slip = Vec<Real, surface_coordinates<dim>>::Zero();

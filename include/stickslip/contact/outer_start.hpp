@@ -24,8 +24,8 @@ class StartsConverged {
   template <class States>
   void begin_iteration(const States&) {}
   template <class Predicted>
-  void predict(Predicted&&) {}
-  Memory at(std::size_t k, const History<Memory>& history, Real) const { return history.converged(k); }
+  void predict(Predicted&&, const History<Memory>&) {}
+  Memory at(std::size_t k, const History<Memory>& history) const { return history.converged(k); }
   const Memory& advance(std::size_t, const Memory& memory, bool, Real, const History<Memory>&, Real) const {
     return memory;
   }
@@ -40,7 +40,7 @@ class StartsAugmented : public StartsConverged<Memory> {
   void reset(const History<Memory>& history) {
     if constexpr (History<Memory>::stored) nodes_ = history.converged();
   }
-  Memory at(std::size_t k, const History<Memory>&, Real) const { return nodes_[k]; }
+  Memory at(std::size_t k, const History<Memory>&) const { return nodes_[k]; }
   Memory& operator[](std::size_t k) { return nodes_[k]; }
   const Memory& operator[](std::size_t k) const { return nodes_[k]; }
 
@@ -71,39 +71,38 @@ class StartsLagged : public StartsAugmented<Memory> {
     for (std::size_t k = 0; k < converged.size(); ++k) own_pressure_[static_cast<Index>(k)] = converged[k].pressure;
     looks_ = 0;
   }
-  /// Takes the pressures that the iteration predicts into the bounds, where all are of the step's own pressure. Where
-  /// they do not settle with the iteration, they stay as they are after some of it.
+  /// Takes the pressures that the iteration predicts into the bounds that are of the step's own pressure (theory.md,
+  /// eq. 5.11). Where they do not settle with the iteration, they stay as they are after some of it.
   template <class Predicted>
-  void predict(Predicted&& predicted) {
-    if (!uses_own_ || !own_of_all_ || looks_ == most_looks) return;
-    for (Index i = 0; i < own_pressure_.size(); ++i)
-      own_change_[i] = std::max(0.0, predicted(static_cast<std::size_t>(i))) - own_pressure_[i];
-    // The change of a node's pressure by its own friction may be more than the friction (eq. 5.32).
-    if (looks_ < 2) own_relaxation_.restart();
+  void predict(Predicted&& predicted, const History<Memory>& history) {
+    if (!uses_own_ || looks_ == most_looks) return;
+    for (Index i = 0; i < own_pressure_.size(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      own_change_[i] = uses_own(k, history) ? std::max(0.0, predicted(k)) - own_pressure_[i] : 0;
+    }
+    // The change of a node's pressure by its own friction may be more than the friction: changes that do not fall as
+    // Newton's do are relaxed (eq. 5.32).
+    const Real size = own_change_.norm();
+    if (looks_ < 2 || size < 0.5 * own_size_) own_relaxation_.restart();
     own_relaxation_.next(own_change_);
+    own_size_ = size;
     for (Index i = 0; i < own_pressure_.size(); ++i)
       own_pressure_[i] = std::max(0.0, own_pressure_[i] + own_relaxation_.omega * own_change_[i]);
     ++looks_;
   }
-  Memory at(std::size_t k, const History<Memory>& history, Real dt) const {
+  Memory at(std::size_t k, const History<Memory>& history) const {
     Memory memory = (*this)[k];
-    if (uses_own(k, history, dt))
-      memory.friction.pressure = Pressure::from_pressure(own_pressure_[static_cast<Index>(k)]);
+    if (uses_own(k, history)) memory.friction.pressure = Pressure::from_pressure(own_pressure_[static_cast<Index>(k)]);
     return memory;
   }
   /// The memory at the end of the step. That of a node with a bound of the step's own goes on from the converged one.
   Memory advance(std::size_t k, Memory memory, bool touching, Real pressure, const History<Memory>& history,
                  Real dt) const {
-    if (touching && uses_own(k, history, dt))
+    if (touching && uses_own(k, history))
       memory.friction.pressure = Pressure::advance(pressure, history.converged(k).friction.pressure, dt);
     return memory;
   }
 
-  /// Whether a node is at its first contact: its bound is of the step's own pressure, for no earlier one is known.
-  bool is_first_contact(std::size_t k, const History<Memory>& history, Real dt) const {
-    return uses_own_ && !own_of_all_ && uses_own(k, history, dt);
-  }
-  void set_own_pressure(std::size_t k, Real pressure) { own_pressure_[static_cast<Index>(k)] = pressure; }
   /// Makes all bounds of the step be of its own pressures, until the next `reset`.
   void use_own_of_all() { own_of_all_ = true; }
 
@@ -112,7 +111,7 @@ class StartsLagged : public StartsAugmented<Memory> {
   const Field& lag_increment(Current&& pressure, const History<Memory>& history, Real dt) {
     for (Index i = 0; i < lag_increment_.size(); ++i) {
       const auto k = static_cast<std::size_t>(i);
-      bound_pressure_[i] = Pressure::pressure(pressure(k), at(k, history, dt).friction.pressure, dt);
+      bound_pressure_[i] = Pressure::pressure(pressure(k), at(k, history).friction.pressure, dt);
       lag_increment_[i] = pressure(k) - bound_pressure_[i];
     }
     return lag_increment_;
@@ -153,13 +152,15 @@ class StartsLagged : public StartsAugmented<Memory> {
  private:
   static constexpr int most_looks = 14;
 
-  bool uses_own(std::size_t k, const History<Memory>& history, Real dt) const {
-    return uses_own_ && (own_of_all_ || !(Pressure::pressure(Real(0), history.converged(k).friction.pressure, dt) > 0));
+  // At a first contact there is no converged pressure: none is foretold even for a step without duration.
+  bool uses_own(std::size_t k, const History<Memory>& history) const {
+    return uses_own_ && (own_of_all_ || !(Pressure::pressure(Real(0), history.converged(k).friction.pressure, 0) > 0));
   }
 
   Field bound_pressure_, lag_increment_;  // that the last bounds are of [force], and what the pressures exceed it by
   Field own_pressure_, own_change_;       // of the step [force]
   Relaxation own_relaxation_, relaxation_;
+  Real own_size_ = 0;     // norm of the last change of those [force]
   int looks_ = 0;         // at the iteration's pressures so far
   bool uses_own_ = true;  // until an outer iteration or a probe sets the bounds
   bool own_of_all_ = false;

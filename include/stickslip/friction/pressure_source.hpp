@@ -28,7 +28,7 @@ struct Symmetrised : CurrentPressure {
 };
 
 /// Normal force at the last converged step (paper, eq. 20 and 21): the tangent is symmetric, and the slip bound lags by
-/// one step. First contacts of large normal force take that of the current step (theory.md, eq. 5.11).
+/// one step. First contacts take that of the current step (theory.md, eq. 5.11).
 struct LastConverged {
   using Role = role::PressureSource;
   static constexpr bool follows_current = false;

@@ -46,21 +46,6 @@ class OuterIteration {
   Real before_ = 0;
 };
 
-/// Makes the bounds of nodes at their first contact be of the pressures of the last evaluation (theory.md, eq. 5.11).
-/// False where these nodes bear no more than a quarter of all contact pressures.
-template <class Pairs>
-bool bound_first_contacts(Pairs& pairs) {
-  Real all = 0, first = 0;
-  for_each_lagging(pairs, [&](auto& pair) {
-    for (std::size_t k = 0; k < pair.nodes().size(); ++k) all += pair.current_pressure(k);
-    pair.visit_first_contacts([&](std::size_t k) { first += pair.current_pressure(k); });
-  });
-  if (!(first > 0.25 * all)) return false;
-  for_each_lagging(
-      pairs, [&](auto& pair) { pair.visit_first_contacts([&](std::size_t k) { pair.bound_by_current_pressure(k); }); });
-  return true;
-}
-
 /// A probe of lagging bounds in a converged state: how much the pressures answer to a change of the bounds by what they
 /// lag behind. The bounds go back when the probe ends.
 template <class Pairs>

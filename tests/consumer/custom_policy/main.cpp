@@ -198,7 +198,7 @@ int main() {
   std::printf("\n");
   const Real apart = std::max(largest_ratio(limit, library), largest_ratio(library, limit)) - 1;
   check(apart < 1e-8, "distance of the limit from the library, any force", apart);
-  // Where nodes slide freely in the step of their first contact, whatever the law, forces are equal.
+  // Where the stress in the wall stays below the cap, forces are equal.
   check(largest_ratio(own, coulomb) < 1 + 1e-8, "own force over that at Coulomb's wall, largest",
         largest_ratio(own, coulomb));
   check(largest_ratio(smooth, own) < 1 + 1e-8, "smooth force over own, largest", largest_ratio(smooth, own));
