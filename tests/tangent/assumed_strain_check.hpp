@@ -161,6 +161,25 @@ void check_energy(const A& a) {
   CHECK(verify::relative_error(a.answer().residual, slope) < 1e-12);
 }
 
+/// What the material sees has the dilatations that the condensed unknowns are: projected once more, they stay.
+template <class A>
+void check_dilatations(const A& a) {
+  constexpr int stretches = A::Element::stretches, dilatations = A::Element::dilatations;
+  const Vec<Real, A::m> closed = a.closed();
+  const auto geometry = a.element.geometry();
+  const auto F = a.element.template deformation<Real>(a.u, a.old);
+  for (int k = 0; k < dilatations; ++k) {
+    Real projected = 0, seen = 0;
+    for (std::size_t p = 0; p < F.size(); ++p) {
+      const Real share = geometry[p].weight / geometry.volume * geometry[p].dilatation[k];
+      projected += share * std::log(determinant(F[p]));
+      for (int l = 0; l < dilatations; ++l) seen += share * geometry[p].dilatation[l] * closed[stretches + l];
+    }
+    CHECK(std::abs(projected - closed[stretches + k]) < 1e-14);
+    CHECK(std::abs(seen - closed[stretches + k]) < 1e-14);
+  }
+}
+
 template <class A>
 bool all_flow(const A& a) {
   const auto now = a.answer().states;
@@ -199,6 +218,7 @@ void check(const A& a) {
   check_newton(a);
   check_closed(a);
   check_residual_alone(a);
+  check_dilatations(a);
 }
 
 }  // namespace assumed_strain_check
