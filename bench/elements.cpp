@@ -2,6 +2,7 @@
 #include "laws.hpp"
 #include "report.hpp"
 
+#include <stickslip/element/assumed_strain.hpp>
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
@@ -15,7 +16,7 @@ using namespace stickslip;
 using bench::add;
 
 /// An element, somewhat distorted, with displacements of the given strain; a hexahedron is a layer of the
-/// quadrilateral.
+/// quadrilateral. Condensed unknowns are open, as in Newton's loop, at the values of these displacements.
 template <class Kinematics, class Element, class Material, class S>
 struct One {
   static constexpr int dim = Element::dim, nodes = Element::nodes, points = Element::points, dofs = nodes * dim;
@@ -25,6 +26,8 @@ struct One {
   Vec<S, dofs> u;
   std::array<State, points> old{};
   ElementResult<S, dofs, points, State> out;
+  static constexpr int unknowns = condensed_unknowns<Element>;
+  CondensedUnknown<S, dofs, unknowns == 0 ? 1 : unknowns> condensed;
 
   explicit One(double strain) {
     const double corner[4][2] = {{10, 0}, {11, 0.1}, {11.2, 0.9}, {9.9, 1}};
@@ -35,11 +38,15 @@ struct One {
         X(a, i) = i < 2 ? corner[a % 4][i] : a / 4 + 0.1 * corner[a % 4][0];
         u[a * dim + i] = S(strain * (i < 2 ? direction[a % 4][i] : 0.3 * direction[a % 4][0] - 0.4 * (a / 4)));
       }
-    const auto rule = Element::Cell::quadrature();
-    for (std::size_t p = 0; p < rule.size(); ++p)
-      geometry[p] = point_geometry<Kinematics, typename Element::Cell>(Kinematics{}, X, rule[p].xi, rule[p].weight);
+    geometry = geometry_of<Element>(Kinematics{}, X);
+    evaluate(Relation::closed);
   }
-  FailureCause evaluate() { return Element::evaluate(geometry, material, u, old, 0, out); }
+  FailureCause evaluate([[maybe_unused]] Relation relation = Relation::open, Want want = Want::tangent) {
+    if constexpr (unknowns > 0)
+      return evaluate_element<Element>(geometry, material, u, old, 0, out, want, condensed, relation);
+    else
+      return evaluate_element<Element>(geometry, material, u, old, 0, out, want);
+  }
 };
 
 /// Forces and tangent of one element.
@@ -58,21 +65,33 @@ void evaluate(benchmark::State& state, double strain) {
 
 using Q1P0 = MeanDilatation<Quad4>;
 using Q1 = FullyIntegrated<Quad4>;
+using Bends = AssumedStrain<Quad4>;
 using H1P0 = MeanDilatation<Hex8>;
+using H1Bends = AssumedStrain<Hex8>;
 using H1 = FullyIntegrated<Hex8>;
 [[maybe_unused]] const benchmark::internal::Benchmark* const elements[] = {
     add("element/PlaneStrain/FullyIntegrated/Hencky", &evaluate<PlaneStrain, Q1, Hencky>, bench::elastic),
+    add("element/PlaneStrain/MeanDilatation/Hencky", &evaluate<PlaneStrain, Q1P0, Hencky>, bench::elastic),
+    add("element/PlaneStrain/AssumedStrain/Hencky", &evaluate<PlaneStrain, Bends, Hencky>, bench::elastic),
     add("element/Axisymmetric/FullyIntegrated/Hencky", &evaluate<Axisymmetric, Q1, Hencky>, bench::elastic),
     add("element/Axisymmetric/MeanDilatation/Hencky", &evaluate<Axisymmetric, Q1P0, Hencky>, bench::elastic),
+    add("element/Axisymmetric/AssumedStrain/Hencky", &evaluate<Axisymmetric, Bends, Hencky>, bench::elastic),
     add("element/PlaneStrain/MeanDilatation/J2Power/plastic", &evaluate<PlaneStrain, Q1P0, bench::J2Power>,
+        bench::plastic),
+    add("element/PlaneStrain/AssumedStrain/J2Power/plastic", &evaluate<PlaneStrain, Bends, bench::J2Power>,
         bench::plastic),
     add("element/Axisymmetric/MeanDilatation/J2Power/elastic", &evaluate<Axisymmetric, Q1P0, bench::J2Power>,
         bench::elastic),
     add("element/Axisymmetric/MeanDilatation/J2Power/plastic", &evaluate<Axisymmetric, Q1P0, bench::J2Power>,
         bench::plastic),
+    add("element/Axisymmetric/AssumedStrain/J2Power/plastic", &evaluate<Axisymmetric, Bends, bench::J2Power>,
+        bench::plastic),
     add("element/ThreeDimensional/FullyIntegrated/Hencky", &evaluate<ThreeDimensional, H1, Hencky>, bench::elastic),
     add("element/ThreeDimensional/MeanDilatation/Hencky", &evaluate<ThreeDimensional, H1P0, Hencky>, bench::elastic),
+    add("element/ThreeDimensional/AssumedStrain/Hencky", &evaluate<ThreeDimensional, H1Bends, Hencky>, bench::elastic),
     add("element/ThreeDimensional/MeanDilatation/J2Power/plastic", &evaluate<ThreeDimensional, H1P0, bench::J2Power>,
+        bench::plastic),
+    add("element/ThreeDimensional/AssumedStrain/J2Power/plastic", &evaluate<ThreeDimensional, H1Bends, bench::J2Power>,
         bench::plastic),
 };
 

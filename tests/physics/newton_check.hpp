@@ -32,9 +32,9 @@ class Recording : public Solver {
 
 /// Newton's residuals over a run of press and drag, tolerance 1e-10 and below: e_{k+1} <= C e_k^2 from 1e-4 down to
 /// round-off. C is of the order of 1: 100 leaves room, and still refuses any linear convergence.
-template <class Friction, class Material, class Solver>
+template <class Friction, class Material, class Solver, class Element = MeanDilatation<Quad4>>
 void check(Real mu) {
-  using M = Model<Recording<Solver>, Friction, Material>;
+  using M = Model<Recording<Solver>, Friction, Material, PlaneStrain, Element>;
   auto p = press_and_drag<M>(mu, 0.2, 1.0, {8, 4});
   auto march = p->march({.end = 1, .steps = 20, .tolerance = 1e-10, .detect_lag_instability = false});
   Index pairs = 0, sliding = 0, sticking = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "affine_check.hpp"
 #include "patch_check.hpp"
 
+#include <stickslip/element/assumed_strain.hpp>
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
 
@@ -29,16 +31,31 @@ Mat<Real, 2> turned() {  // u_r = a r, u_z = b z is homogeneous about an axis
 }
 using Plain = FullyIntegrated<Quad4>;
 using Mean = MeanDilatation<Quad4>;
+using Bends = AssumedStrain<Quad4>;
 
 TEST_CASE("plane and axisymmetric Hencky elements pass the patch test") {
   check_body<Lone<EigenLdlt, Hencky, PlaneStrain, Mean>>(plane(), 4);
   check_body<Lone<EigenLdlt, Hencky, PlaneStrain, Plain>>(plane(), 4);
   check_body<Lone<EigenLdlt, Hencky, Axisymmetric, Mean>>(turned(), 4);
   check_body<Lone<EigenLdlt, Hencky, Axisymmetric, Plain>>(turned(), 4);
+  check_body<Lone<EigenLdlt, Hencky, PlaneStrain, Bends>>(plane(), 4);
+  check_body<Lone<EigenLdlt, Hencky, Axisymmetric, Bends>>(turned(), 4);
 }
 TEST_CASE("plane and axisymmetric plastic elements pass the patch test") {
   check_body<Lone<EigenLdlt, FiniteJ2<PowerHardening>, PlaneStrain, Mean>>(plane(), 8);
   check_body<Lone<EigenLdlt, FiniteJ2<PowerHardening>, Axisymmetric, Mean>>(turned(), 8);
+  check_body<Lone<EigenLdlt, FiniteJ2<PowerHardening>, PlaneStrain, Bends>>(plane(), 8);
+  check_body<Lone<EigenLdlt, FiniteJ2<PowerHardening>, Axisymmetric, Bends>>(turned(), 8);
+}
+
+TEST_CASE_TEMPLATE("under affine motion all quadrilaterals have the same nodal forces", Material, Hencky,
+                   FiniteJ2<PowerHardening>) {
+  Mat<Real, 4, 2> X;
+  X << 1.0, 0.1, 2.3, -0.2, 2.0, 1.4, 0.8, 0.9;
+  check_affine<Plain, Mean, PlaneStrain>(material<Material>(), X, plane());
+  check_affine<Plain, Bends, PlaneStrain>(material<Material>(), X, plane());
+  check_affine<Plain, Mean, Axisymmetric>(material<Material>(), X, turned());
+  check_affine<Plain, Bends, Axisymmetric>(material<Material>(), X, turned());
 }
 
 // A block with nodes at uneven distances, pressed by a flat tool: spread of the nodal pressures.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 // Bodies in space, without contact.
+#include "affine_check.hpp"
 #include "patch_check.hpp"
 
+#include <stickslip/element/assumed_strain.hpp>
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/io/vtu.hpp>
@@ -22,6 +24,7 @@ using V3 = Vec<Real, 3>;
 using M3 = Mat<Real, 3>;
 using Mean = MeanDilatation<Hex8>;
 using Plain = FullyIntegrated<Hex8>;
+using Bends = AssumedStrain<Hex8>;
 template <class M, class E = Mean>
 using Brick = Lone<EigenLdlt, M, ThreeDimensional, E>;
 
@@ -32,17 +35,28 @@ Mesh<3, 8> distorted_cube(const std::array<Index, 3>& cells) {
     x += 0.07 * V3(std::cos(3.1 * x[1] + 2 * x[2]), std::cos(2.3 * x[2] + 4 * x[0]), std::sin(2.9 * x[0] + 3 * x[1]));
   return mesh;
 }
+const M3 affine{{0.15, 0.1, -0.08}, {-0.05, -0.1, 0.12}, {0.07, -0.11, 0.05}};
 template <class M>
 void check_cube(Index steps) {
-  const M3 H{{0.15, 0.1, -0.08}, {-0.05, -0.1, 0.12}, {0.07, -0.11, 0.05}};
-  check_patch<M>(distorted_cube({3, 3, 3}), {"left", "right", "bottom", "top", "back", "front"}, H, steps, 8);
+  check_patch<M>(distorted_cube({3, 3, 3}), {"left", "right", "bottom", "top", "back", "front"}, affine, steps, 8);
 }
 TEST_CASE("hexahedra of Hencky's law pass the patch test") {
   check_cube<Brick<Hencky, Mean>>(4);
   check_cube<Brick<Hencky, Plain>>(4);
+  check_cube<Brick<Hencky, Bends>>(4);
 }
 TEST_CASE("plastic hexahedra pass the patch test") {
   check_cube<Brick<FiniteJ2<PowerHardening>>>(8);
+  check_cube<Brick<FiniteJ2<PowerHardening>, Bends>>(8);
+}
+
+TEST_CASE_TEMPLATE("under affine motion all hexahedra have the same nodal forces", Material, Hencky,
+                   FiniteJ2<PowerHardening>) {
+  const auto mesh = distorted_cube({1, 1, 1});
+  Mat<Real, 8, 3> X;
+  for (int a = 0; a < 8; ++a) X.row(a) = mesh.nodes[std::size_t(mesh.cells[0][std::size_t(a)])].transpose();
+  check_affine<Plain, Mean, ThreeDimensional>(material<Material>(), X, affine);
+  check_affine<Plain, Bends, ThreeDimensional>(material<Material>(), X, affine);
 }
 
 TEST_CASE_TEMPLATE("a rigid rotation gives no stress", M, Brick<Hencky, Mean>, Brick<Hencky, Plain>,
@@ -200,8 +214,7 @@ TEST_CASE("of two bodies in space the one that can rotate about a line, or trans
 }
 
 TEST_CASE("a free body in space keeps its momentum") {
-  Problem<Moving> p(
-      {.body = distorted_cube({2, 2, 2}), .material = material<Hencky>(), .density = 3});
+  Problem<Moving> p({.body = distorted_cube({2, 2, 2}), .material = material<Hencky>(), .density = 3});
   p.start_velocity(V3(1, -2, 0.5));
   auto march = p.march({.end = 0.3, .steps = 3, .tolerance = 1e-10});
   CHECK(bool(march.finish()));

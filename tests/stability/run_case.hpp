@@ -92,6 +92,8 @@ const TestedModel& smooth();               ///< frictionless, elastic
 const TestedModel& metal();                ///< J2, linear hardening, Quasi-Coulomb, plane strain
 const std::vector<TestedModel>& sheets();  ///< J2, power hardening, axisymmetric: laws
 const std::vector<TestedModel>& moving();  ///< elastic with inertia: laws
+/// AssumedStrain, Quasi-Coulomb, plane strain: elastic, and J2 with linear hardening.
+const TestedModel &bends(), &bending_metal();
 const TestedModel& ringing();              ///< frictionless, elastic with inertia, multipliers
 const TestedModel& tube();                 ///< J2, axisymmetric with inertia
 

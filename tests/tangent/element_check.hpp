@@ -48,6 +48,26 @@ void check_tangent(const verify::SingleElement<Element, Kinematics, Material>& e
       CHECK(q.force < 1e-8);
       CHECK(q.tangent < 1e-8);
     }
+  } else if constexpr (condensed_unknowns<Element> > 1) {  // the relations are no explicit functions of u
+    constexpr int m = condensed_unknowns<Element>;
+    const auto old = element.template preloaded<Real>(path);
+    const auto closed = element.template at<Real>(path.back(), old);
+    const Vec<Real, m> settled = element.closed(path.back(), old);
+    const auto open = element.open(path.back(), old, settled);
+    CHECK(open.relation.residual.cwiseAbs().maxCoeff() < 1e-14);
+    CHECK(verify::relative_error(open.force, closed.residual) < 1e-12);
+    CHECK(verify::relative_error(open.tangent, closed.tangent) < 1e-12);
+    for (const Real amount : {-0.01, 0.015}) {
+      Vec<Real, m> value = settled;
+      for (int k = 0; k < m; ++k) value[k] += amount * (0.3 + k % 3 - 1);
+      const auto q = verify::relation_report<n, m>(
+          path.back(), value, 2e-5, 1e-5,
+          [&](const Vec<Real, n>& u, const Vec<Real, m>& v) { return element.open(u, old, v); }, false);
+      CHECK(q.force < 1e-8);
+      CHECK(q.tangent < 1e-8);
+      if (Material::symmetry == Symmetry::symmetric)
+        CHECK(verify::asymmetry(element.open(path.back(), old, value).tangent) == 0);
+    }
   }
 }
 template <class Element, class Kinematics, class Material>

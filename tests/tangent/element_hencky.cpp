@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "element_check.hpp"
+#include "skewed.hpp"
 
 #include <stickslip/material/hencky.hpp>
 
@@ -18,8 +19,7 @@ void check_energy() {
   const verify::SingleElement<Element, Kinematics, Hencky> element{.material = material, .X = distorted()};
   const U u = displacement(1);
   const Vec<Dual<8>, 8> dual_u = verify::seeded<8>(u);
-  const auto F =
-      element.template deformation<Dual<8>>(dual_u);
+  const auto F = element.template deformation<Dual<8>>(dual_u);
   Dual<8> energy(0);
   const auto geometry = element.geometry();
   for (std::size_t p = 0; p < 4; ++p) energy += material.energy(F[p], {}) * geometry[p].weight;
@@ -37,8 +37,7 @@ TEST_CASE("a quadrilateral of mean dilatation has one dilatation, a fully integr
   const auto spread = [](auto tag) {
     using Element = decltype(tag);
     const verify::SingleElement<Element, PlaneStrain, Hencky> element{.material = material, .X = distorted()};
-    const auto F =
-        element.template deformation<Real>(displacement(1));
+    const auto F = element.template deformation<Real>(displacement(1));
     Real low = 1e300, high = -1e300;
     for (const auto& f : F) {
       low = std::min(low, determinant(f));
@@ -60,20 +59,6 @@ TEST_CASE("an inverted quadrilateral fails as element_inverted") {
   CHECK(std::isnan(plain.at<Real>(u, {}).residual[0]));
 }
 
-// A material whose tangent has no symmetry: the elements must not mirror it.
-struct Skewed : Hencky {
-  static constexpr Symmetry symmetry = Symmetry::general;
-  template <class S, class TensorPattern>
-  MaterialResponse<S, TensorPattern, State<S, TensorPattern>> respond(const Tensor<S, TensorPattern>& F,
-                                                                      const State<S, TensorPattern>& old,
-                                                                      Real dt) const {
-    auto out = Hencky::respond(F, old, dt);
-    // A follower-like stress that derives from no energy: P_11 += c F_22^2.
-    out.P(0, 0) += S(young * 0.1) * F(1, 1) * F(1, 1);
-    out.dP_dF(0, 3) += S(young * 0.2) * F(1, 1);
-    return out;
-  }
-};
 TEST_CASE("quadrilaterals carry the tangent of a non-symmetric material") {
   const auto check_general = [](auto element) {
     const auto r = verify::element_tangent(element, {displacement(1)}, 1, 2e-5);

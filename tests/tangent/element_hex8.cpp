@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "brick.hpp"
 #include "element_check.hpp"
 
-#include <stickslip/element/hex8.hpp>
 #include <stickslip/kinematics/three_dimensional.hpp>
 #include <stickslip/material/finite_j2.hpp>
 #include <stickslip/material/hardening.hpp>
@@ -12,6 +12,8 @@
 namespace element_hex8 {
 
 using namespace stickslip;
+using element_check::brick::displacement;
+using element_check::brick::distorted;
 using U = Vec<Real, 24>;
 using Path = std::vector<U>;
 using Mean = MeanDilatation<Hex8>;
@@ -22,20 +24,6 @@ using Lone = verify::SingleElement<Element, ThreeDimensional, Material>;
 const Hencky hencky{.young = 200e3, .poisson = 0.3};
 const FiniteJ2<PowerHardening> power{
     .young = 69004, .poisson = 0.3, .hardening = {.strength = 589, .offset = 1e-4, .exponent = 0.216}};
-
-// A brick with uneven corners; no two faces are parallel.
-Mat<Real, 8, 3> distorted() {
-  Mat<Real, 8, 3> X;
-  for (int a = 0; a < 8; ++a)
-    for (int i = 0; i < 3; ++i)
-      X(a, i) = 0.6 * Hex8::corner[std::size_t(a)][std::size_t(i)] + 0.1 * std::sin(5.0 * a + 2 * i);
-  return X;
-}
-U displacement(Real scale) {
-  U u;
-  for (int k = 0; k < 24; ++k) u[k] = 0.15 * std::cos(2.7 * k + 0.3);
-  return scale * u;
-}
 
 template <class Element, class Material>
 void check(const Material& material, const Path& path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/element/assumed_strain.hpp>
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
@@ -42,7 +43,7 @@ using boost::mp11::mp_size;
 enum Kinematics_ { plane, ring, space };
 using AllKinematics = mp_list<PlaneStrain, Axisymmetric, ThreeDimensional>;
 
-/// Treatments of the volume; the cell follows the dimension.
+/// Treatments of volume and shear; the cell follows the dimension.
 template <int dim>
 using Cell = std::conditional_t<dim == 3, Hex8, Quad4>;
 struct Mean {
@@ -53,8 +54,12 @@ struct Full {
   template <int dim>
   using Element = FullyIntegrated<Cell<dim>>;
 };
-enum Treatment_ { mean, full };
-using Treatments = mp_list<Mean, Full>;
+struct Assumed {
+  template <int dim>
+  using Element = AssumedStrain<Cell<dim>>;
+};
+enum Treatment_ { mean, full, bends };
+using Treatments = mp_list<Mean, Full, Assumed>;
 
 enum Material_ {
   hencky,

@@ -37,7 +37,7 @@ TEST_CASE("the parts of every valid model store only the members that they need"
       });
     });
   });
-  static_assert(bodies == 3 * 2 * (6 * 2 + 4));
+  static_assert(bodies == 3 * 3 * (6 * 2 + 4));
   constexpr int contacts = count(Each<AllKinematics>{}, [](auto k) {
     return count(Each<Bounds>{}, [k](auto b) {
       return count(Each<Sources>{}, [k, b](auto s) {
@@ -54,7 +54,7 @@ TEST_CASE("the parts of every valid model store only the members that they need"
                    [k, t](auto l) { return checked<k, t, hencky, smooth, current, free_, moving, l>(); });
     });
   });
-  static_assert(inertias == 3 * 2 * 2);
+  static_assert(inertias == 3 * 3 * 2);
   MESSAGE(bodies << " bodies, " << contacts << " contacts and " << inertias << " with inertia");
 }
 

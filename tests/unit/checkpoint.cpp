@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A run that is restarted from a file continues bit for bit; a file that is not whole, or of something else, is refused
 // by a sentence and nothing is touched.
+#include <stickslip/element/assumed_strain.hpp>
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
@@ -112,6 +113,9 @@ struct Multipliers : Plane {
   using LinearSolver = Tiring;
   using Friction = WithPressure<Coulomb, LagIterated>;
   using Enforcement = AugmentedLagrangian;
+};
+struct Bending : Plane {
+  using Element = AssumedStrain<Quad4>;
 };
 struct Space : Plane {
   using Kinematics = ThreeDimensional;
@@ -276,6 +280,9 @@ TEST_CASE("inertia, a rate law and an extrapolated bound continue bit for bit") 
 TEST_CASE("multipliers and iterated bounds continue bit for bit") {
   continues_bit_for_bit<Multipliers>(automatic, {2, 8});
   continues_bit_for_bit<Multipliers>(equal, {13});
+}
+TEST_CASE("the condensed unknowns of an element that bends continue bit for bit") {
+  continues_bit_for_bit<Bending>(automatic, {1, 7});
 }
 TEST_CASE("contacts in space with a law each continue bit for bit") {
   continues_bit_for_bit<Space>(automatic, {4, 9});

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // An effect that the scene does not call for takes no memory.
+#include <stickslip/element/assumed_strain.hpp>
+#include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
 #include <stickslip/enforcement/no_contact.hpp>
 #include <stickslip/enforcement/penalty.hpp>
@@ -74,6 +76,19 @@ static_assert(sizeof(ContactPair<Model<Hencky, Tresca, Penalty>>) > sizeof(Conta
 static_assert(!ContactPair<Model<Hencky, Stribeck, Penalty>>::takes_area);
 static_assert(!History<Hencky::State<Real, Planar>>::stored && std::is_empty_v<History<Hencky::State<Real, Planar>>>);
 static_assert(sizeof(PointGeometry<Axisymmetric, 4>) == sizeof(PointGeometry<PlaneStrain, 4>) + 4 * sizeof(Real));
+
+// An element keeps the condensed unknowns that it has, and what the iteration needs of them; without any, nothing.
+template <class E>
+struct With : Free {
+  using Element = E;
+};
+template <class E>
+constexpr std::size_t body_size = sizeof(Body<With<E>>);
+static_assert(std::is_empty_v<CondensedUnknowns<8, 0>> && std::is_empty_v<CondensedUnknowns<24, 0>>);
+static_assert(body_size<MeanDilatation<Quad4>> == body_size<FullyIntegrated<Quad4>> + sizeof(CondensedUnknowns<8, 1>));
+static_assert(body_size<AssumedStrain<Quad4>> == body_size<FullyIntegrated<Quad4>> + sizeof(CondensedUnknowns<8, 5>));
+static_assert(sizeof(CondensedUnknown<Real, 8, 5>) == (5 + 5 + 8 * 5 + 8) * sizeof(Real));
+static_assert(sizeof(CondensedUnknown<Real, 24, 7>) == (7 + 7 + 24 * 7 + 24) * sizeof(Real));
 
 // In space: the gradients and the weight of a point, six components of the plastic memory and the strain.
 static_assert(sizeof(PointGeometry<ThreeDimensional, 8>) <= 26 * sizeof(Real));
