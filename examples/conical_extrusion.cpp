@@ -92,12 +92,13 @@ int main(int argc, char** argv) {
                       .about = "radius of the joint of container and cone, in mm",
                       .value = 10,
                       .low = 0.1,
-                      .high = 1000}}};
+                      .high = 1000},
+                     examples::element_option()}};
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;
     if (options->list) return examples::print_list<Extrusion, AllSolvers>(frictions);
-    return examples::dispatch<Extrusion, AllSolvers>(*options, frictions,
-                                                     [&]<class Model>() { return extrude<Model>(*options); });
+    return examples::dispatch_element<Extrusion, AllSolvers>(*options, frictions,
+                                                             [&]<class Model>() { return extrude<Model>(*options); });
   });
 }

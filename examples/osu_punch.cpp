@@ -81,12 +81,13 @@ int main(int argc, char** argv) {
       .frictions = frictions.list(),
       .solvers = AllSolvers::solvers().names(),
       .mu = 0.15,
-      .parameters = {{.name = "travel", .about = "punch travel in mm", .value = 40, .low = 1, .high = 500}}};
+      .parameters = {{.name = "travel", .about = "punch travel in mm", .value = 40, .low = 1, .high = 500},
+                     examples::element_option()}};
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;
     if (options->list) return examples::print_list<Punch, AllSolvers>(frictions);
-    return examples::dispatch<Punch, AllSolvers>(*options, frictions,
-                                                 [&]<class Model>() { return punch<Model>(*options); });
+    return examples::dispatch_element<Punch, AllSolvers>(*options, frictions,
+                                                         [&]<class Model>() { return punch<Model>(*options); });
   });
 }

@@ -20,12 +20,17 @@
 
 #include "common/solver_table.hpp"
 
+#include <concepts>
+
 using namespace stickslip;
 
 // Instantiated once each, in the units of the folder sheet_stamping.
 extern template int stamp<SolvedStamping<Coulomb, run_time::Takes::full>>(const examples::Options&);
 extern template int stamp<SolvedStamping<Coulomb, run_time::Takes::corrections>>(const examples::Options&);
 extern template int stamp<SolvedStamping<QuasiCoulomb, run_time::Takes::triangle>>(const examples::Options&);
+using Bending = AssumedStrain<Hex8>;
+extern template int stamp<SolvedStamping<Coulomb, run_time::Takes::full, Bending>>(const examples::Options&);
+extern template int stamp<SolvedStamping<QuasiCoulomb, run_time::Takes::triangle, Bending>>(const examples::Options&);
 
 int main(int argc, char** argv) {
   using run_time::Named;
@@ -41,6 +46,7 @@ int main(int argc, char** argv) {
           {.name = "solver-table",
            .about = "run with every solver that takes the system and print what an iteration costs",
            .names = {"off", "on"}},
+          examples::element_option(),
           {.name = "memory", .about = "GiB for a solver of the table", .value = 12, .low = 0.1, .high = 1e4},
           {.name = "patience", .about = "seconds for a solver of the table", .value = 3600, .low = 1, .high = 1e6}}};
   return examples::guarded(program.name, [&] {
@@ -49,8 +55,12 @@ int main(int argc, char** argv) {
     using Any = SolvedStamping<QuasiCoulomb, run_time::Takes::triangle>;
     if (options->list) return examples::print_list<Any, SheetSolvers>(frictions);
     const auto run = [&](const examples::Options& o) {
-      return examples::dispatch<Any, SheetSolvers>(o, frictions, [&]<class Model>() {
-        return stamp<Stamping<typename Model::Friction, typename Model::LinearSolver>>(o);
+      return examples::dispatch_element<Any, SheetSolvers>(o, frictions, [&]<class Model>() -> int {
+        using Chosen = Stamping<typename Model::Friction, typename Model::LinearSolver, typename Model::Element>;
+        if constexpr (std::same_as<typename Model::Element, Bending> && SolverOf<Model>::corrects)
+          throw examples::BadOption("--solver: \"" + o.solver + "\" is not offered with --element assumed-strain");
+        else
+          return stamp<Chosen>(o);
       });
     };
     if (options->parameters.at("solver-table") == 0) return run(*options);

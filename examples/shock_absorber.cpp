@@ -51,7 +51,8 @@ int invert(const examples::Options& options) {
   Problem<Model> absorber{{
       .body = tube,
       .material = {.young = 67000, .poisson = 0.33, .hardening = {.yield = 15 * scale, .modulus = 44.7 * scale}},
-      .density = 2.7e-9, .time_integration = {.scheme = chung_hulbert(p.at("spectral-radius"))},
+      .density = 2.7e-9,
+      .time_integration = {.scheme = chung_hulbert(p.at("spectral-radius"))},
       .contacts = {on_die},
   }};
   absorber.drive("top", 1, [](Real t) { return -speed * t; });
@@ -98,12 +99,13 @@ int main(int argc, char** argv) {
            .about = "of the time scheme at infinite frequency",
            .value = 0,
            .low = 0,
-           .high = 1}}};
+           .high = 1},
+          examples::element_option()}};
   return examples::guarded(program.name, [&] {
     const auto options = examples::parse(argc, argv, program);
     if (!options) return 0;
     if (options->list) return examples::print_list<Tube, AllSolvers>(frictions);
-    return examples::dispatch<Tube, AllSolvers>(*options, frictions,
-                                                [&]<class Model>() { return invert<Model>(*options); });
+    return examples::dispatch_element<Tube, AllSolvers>(*options, frictions,
+                                                        [&]<class Model>() { return invert<Model>(*options); });
   });
 }

@@ -4,8 +4,11 @@
 
 #include "options.hpp"
 
+#include <stickslip/element/assumed_strain.hpp>
+#include <stickslip/friction/coulomb.hpp>
 #include <stickslip/run_time.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <string>
 
@@ -20,6 +23,33 @@ int dispatch(const Options& options, const Frictions& frictions, Run&& run) {
     const std::string text = e.what(), subject = "linear solver";
     throw BadOption(text.starts_with(subject) ? "--solver" + text.substr(subject.size()) : text);
   }
+}
+
+/// The option --element: the paper's, or the one that bends.
+inline Parameter element_option() {
+  return {.name = "element", .about = "element", .names = element_names};
+}
+
+/// `Base` with the element that bends.
+template <class Base>
+struct Bending : Base {
+  using Element = stickslip::AssumedStrain<typename Base::Element::Cell>;
+};
+
+/// The laws that are instantiated with that element as well: those that the elements are compared with.
+inline constexpr stickslip::run_time::Choices bending_laws{
+    stickslip::run_time::Named<stickslip::Coulomb>{"coulomb"},
+    stickslip::run_time::Named<stickslip::QuasiCoulomb>{"quasi-coulomb"}};
+
+/// The same for either element.
+template <class Base, class Offered, class Frictions, class Run>
+int dispatch_element(const Options& options, const Frictions& frictions, Run&& run) {
+  if (options.parameters.at("element") == 0) return dispatch<Base, Offered>(options, frictions, run);
+  const auto laws = bending_laws.list();
+  if (std::find(laws.begin(), laws.end(), options.friction) == laws.end())
+    throw BadOption("--friction: \"" + options.friction + "\" is not offered with --element assumed-strain; it takes " +
+                    joined(laws));
+  return dispatch<Bending<Base>, Offered>(options, bending_laws, run);
 }
 
 /// What --list prints: every friction law with the solvers that take it. Returns the exit code.

@@ -41,6 +41,9 @@ struct Options {
   std::map<std::string, double> parameters;  ///< of the benchmark, by name
 };
 
+/// Names of the elements that benchmarks offer with --element.
+inline const std::vector<std::string> element_names{"mean-dilatation", "assumed-strain"};
+
 /// What a program offers and what it takes where the user says nothing.
 struct Program {
   std::string name, title;

@@ -44,6 +44,8 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
   j["solver"] = options.solver;
   j["kinematics"] = r.labels.kinematics;
   j["material"] = r.labels.material;
+  if (const auto element = options.parameters.find("element"); element != options.parameters.end())
+    j["element"] = element_names[static_cast<std::size_t>(element->second)];
   j["elements"] = r.elements;
   j["unknowns"] = r.unknowns;
   j["symmetric_storage"] = r.symmetric_storage;

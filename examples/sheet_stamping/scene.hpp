@@ -12,10 +12,10 @@
 #include <stickslip/stickslip.hpp>
 
 // What the sheet is made of, decided at compile time.
-template <class Friction_, class Solver>
+template <class Friction_, class Solver, class Element_ = stickslip::MeanDilatation<stickslip::Hex8>>
 struct Stamping : stickslip::QuasistaticDefaults {
   using Kinematics = stickslip::ThreeDimensional;
-  using Element = stickslip::MeanDilatation<stickslip::Hex8>;
+  using Element = Element_;
   using Material = stickslip::FiniteJ2<stickslip::PowerHardening>;
   using Friction = Friction_;
   using LinearSolver = Solver;
@@ -31,8 +31,8 @@ struct SheetSolvers {
     return all;
   }
 };
-template <class Friction, stickslip::run_time::Takes matrix>
-using SolvedStamping = Stamping<Friction, stickslip::run_time::SolverByName<SheetSolvers, matrix>>;
+template <class Friction, stickslip::run_time::Takes matrix, class Element = stickslip::MeanDilatation<stickslip::Hex8>>
+using SolvedStamping = Stamping<Friction, stickslip::run_time::SolverByName<SheetSolvers, matrix>, Element>;
 
 template <class Model>
 int stamp(const examples::Options& options) {

@@ -3,6 +3,7 @@
 
 #include <stickslip/base/brief.hpp>
 #include <stickslip/body/stress_recovery.hpp>
+#include <stickslip/body/thin_cells.hpp>
 #include <stickslip/mesh/coincident_nodes.hpp>
 #include <stickslip/scene.hpp>
 #include <stickslip/solve/energy_gain.hpp>
@@ -11,11 +12,13 @@
 #include <stickslip/solve/run_state.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace stickslip {
@@ -89,6 +92,7 @@ class March : public RunState {
   Index iterate_outer(Iterate& iterate, Field& u, Real time, Real dt, NewtonReport& newton);
   bool lag_is_unstable(Iterate& iterate, const Field& u, Real time, Real dt, const ContactSummary& contact);
   void watch_energy(const StepReport& step);
+  void watch_bending(const Field& u);
   void retry(Iterate& iterate, Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model>;
   void bound_first(Iterate& iterate, Field& u, Real time, Real dt, Attempt& attempt);
 
@@ -110,6 +114,8 @@ class March : public RunState {
   Newton<SolverOf<Model>, has_inexact_tangent<Model>(), typename System<Mechanical>::Space> newton_;
   Field trial_, driven_, outer_guess_;
   std::unique_ptr<StressRecoveries<Bodies<Mechanical>>> stress_;  // where the mesh's error is asked for
+  static constexpr bool watches_bending = !std::is_empty_v<ThinCellsOf<Mechanical>>;
+  [[no_unique_address]] ThinCellsOf<Mechanical> thin_;
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
   using Gain = std::optional<EnergyGain<Mechanical, Scene<Mechanical>>>;
   [[no_unique_address]] StoredIf<keeps_energy, Gain, March> gain_;  // to see what the time scheme gains
@@ -161,6 +167,13 @@ template <class Model>
                             .line_search = options.line_search},
               solver) {
   if constexpr (has_outer_iterations<Model>() || has_lag<Model>()) outer_guess_ = problem.u_;
+  if constexpr (watches_bending)
+    problem.bodies_.for_each([&](const auto& body) {
+      using Element = typename std::remove_cvref_t<decltype(body)>::Element;
+      if constexpr (locks_in_bending<Element> &&
+                    std::same_as<ThinCells<typename Element::Cell>, ThinCellsOf<Mechanical>>)
+        thin_.add_mesh(body.mesh(), body.first_node(), body.first_cell());
+    });
   if (options.mesh_error_interval > 0)
     stress_ = std::make_unique<StressRecoveries<Bodies<Mechanical>>>(problem.bodies_);
   problem_.prepare();
@@ -292,6 +305,18 @@ void March<Model>::bound_first([[maybe_unused]] Iterate& iterate, [[maybe_unused
   }
 }
 
+/// Warns once of a thin cell that bends although its element locks in bending. Looks at every eighth step.
+template <class Model>
+void March<Model>::watch_bending([[maybe_unused]] const Field& u) {
+  if constexpr (watches_bending) {
+    if (thin_.none() || now_.report.steps % 8 != 0) return;
+    const std::string name = "thin_cells_bend";
+    for (const Warning& told : now_.warnings.list())
+      if (told.name == name) return;
+    if (const std::string text = thin_.bending(u); !text.empty()) warn(name, "", text);
+  }
+}
+
 /// Warns where the time scheme has gained energy (theory.md, eq. 7.17).
 template <class Model>
 void March<Model>::watch_energy([[maybe_unused]] const StepReport& step) {
@@ -343,6 +368,7 @@ typename March<Model>::Attempt March<Model>::attempt(Iterate& iterate, Field& u,
   }
   if (newton.failure) return a;
   if (extrapolated) {
+    if (problem_.last_dt_ > 0) iterate.extrapolate(dt / problem_.last_dt_);
     newton = newton_.solve(iterate, u, time, dt);
   } else {
     driven_ = u - problem_.u_;
@@ -491,6 +517,7 @@ void March<Model>::advance() {
         problem_.accept(u, time, dt);
         state_ = problem_.revision_;
         watch_energy(step);
+        watch_bending(u);
         Real mesh_error = now_.step.errors.space;
         if (stress_ && now_.report.steps % options_.mesh_error_interval == 0) {
           const Stopwatch watch(system.timings.estimates);

@@ -11,6 +11,7 @@
 
 #include <stickslip/advise.hpp>
 #include <stickslip/damping/stiffness_damping.hpp>
+#include <stickslip/element/assumed_strain.hpp>
 #include <stickslip/element/fully_integrated.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>

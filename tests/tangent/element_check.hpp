@@ -34,9 +34,10 @@ void check_tangent(const verify::SingleElement<Element, Kinematics, Material>& e
   CHECK(r.by_duals < 1e-11);
   CHECK(r.by_differences < 1e-8);
   if constexpr (Material::symmetry == Symmetry::symmetric) CHECK(r.asymmetry == 0);
-  if constexpr (has_condensed_unknown<Element>) {
+  if constexpr (condensed_unknowns<Element> == 1) {
     const auto old = element.template preloaded<Real>(path);
     const Real settled = element.open(path.back(), old, 0).relation.residual;
+    CHECK(element.closed(path.back(), old) == settled);
     CHECK(element.open(path.back(), old, settled).relation.residual == 0);
     CHECK(verify::relative_error(element.open(path.back(), old, settled).tangent,
                                  element.template at<Real>(path.back(), old).tangent) < 1e-13);

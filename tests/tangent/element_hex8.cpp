@@ -61,9 +61,8 @@ TEST_CASE_TEMPLATE("hexahedron forces derive from the stored energy", Element, M
   const Lone<Element, Hencky> element{.material = hencky, .X = distorted()};
   const U u = displacement(1);
   const Vec<Dual<24>, 24> dual_u = verify::seeded<24>(u);
-  const auto F = Element::template deformation<ThreeDimensional, Dual<24>, Dual<24>>(
-      element.template geometry_in<Dual<24>>(), dual_u);
-  const auto geometry = element.template geometry_in<Real>();
+  const auto F = element.template deformation<Dual<24>>(dual_u);
+  const auto geometry = element.geometry();
   Dual<24> energy(0);
   for (std::size_t p = 0; p < 8; ++p) energy += hencky.energy(F[p], {}) * geometry[p].weight;
   const U slope = energy.slope.matrix();
@@ -74,8 +73,7 @@ TEST_CASE("a hexahedron of mean dilatation has one dilatation, a fully integrate
   const auto spread = [](auto tag) {
     using Element = decltype(tag);
     const Lone<Element, Hencky> element{.material = hencky, .X = distorted()};
-    const auto F = Element::template deformation<ThreeDimensional, Real, Real>(element.template geometry_in<Real>(),
-                                                                               displacement(1));
+    const auto F = element.template deformation<Real>(displacement(1));
     Real low = 1e300, high = -1e300;
     for (const auto& f : F) {
       low = std::min(low, determinant(f));

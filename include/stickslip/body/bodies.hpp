@@ -201,6 +201,9 @@ class BodiesOf {
   void connect(const IndexMap& dofs, const Matrix& matrix) {
     for_each([&](auto& body) { body.connect(dofs, matrix); });
   }
+  void extrapolate(Real share) {
+    for_each([&](auto& body) { body.extrapolate(share); });
+  }
   void begin_iteration() {
     for_each([](auto& body) { body.begin_iteration(); });
   }

@@ -49,7 +49,7 @@ class BodyOf {
     geometry_.reserve(mesh_.cells.size());
     for (Index e = 0; e < mesh_.cell_count(); ++e) geometry_.push_back(cell_geometry(e));
     memory_ = Memory(mesh_.cells.size());
-    dilatations_ = Dilatations(mesh_.cells.size());
+    condensed_ = Condensed(mesh_.cells.size());
   }
 
   const MeshType& mesh() const { return mesh_; }
@@ -71,6 +71,16 @@ class BodyOf {
     return c;
   }
 
+  /// Reference coordinates of a cell's nodes, one row a node [length].
+  Mat<Real, Element::nodes, dim> coordinates(Index cell) const {
+    Mat<Real, Element::nodes, dim> X;
+    for (int a = 0; a < Element::nodes; ++a) {
+      const Index n = mesh_.cells[static_cast<std::size_t>(cell)][static_cast<std::size_t>(a)];
+      for (int i = 0; i < dim; ++i) X(a, i) = mesh_.nodes[static_cast<std::size_t>(n)][i];
+    }
+    return X;
+  }
+
   /// Couples the components of every cell.
   void couple(SparsityPattern& pattern) const {
     for (Index e = 0; e < mesh_.cell_count(); ++e) pattern.couple(components(e));
@@ -83,23 +93,25 @@ class BodyOf {
   }
 
   /// Begins an iteration: the condensed unknowns' values of the converged state become unknowns of their own.
-  void begin_iteration() { dilatations_.begin(); }
+  void begin_iteration() { condensed_.begin(); }
+  void extrapolate(Real share) { condensed_.extrapolate(share); }
   /// Predicts the condensed unknowns after the change du of the displacements, with a fraction of their constraint
   /// residuals closed.
   void predict(const Field& du, Real fraction) {
     if constexpr (condensed)
       for (Index e = 0; e < mesh_.cell_count(); ++e)
-        dilatations_.predict(static_cast<std::size_t>(e), gather(du, e), fraction);
+        condensed_.predict(static_cast<std::size_t>(e), gather(du, e), fraction);
   }
-  void set_step(Real length) { dilatations_.set_step(length); }
-  Real constraint_merit() const { return dilatations_.constraint_merit(); }
+  void set_step(Real length) { condensed_.set_step(length); }
+  Real constraint_merit() const { return condensed_.constraint_merit(); }
 
   /// Adds internal forces and their tangent.
   template <class Evaluation>
   Failure evaluate(const Evaluation& ev, Field& forces) {
     for (Index e = 0; e < mesh_.cell_count(); ++e) {
       const auto k = static_cast<std::size_t>(e);
-      const FailureCause cause = evaluate_cell(k, gather(ev.u, e), ev.dt, ev.constraint_force != nullptr, ev.want);
+      const Relation relation = ev.constraint_force ? Relation::open : Relation::closed;
+      const FailureCause cause = evaluate_cell(k, gather(ev.u, e), ev.dt, relation, ev.want);
       if (cause != FailureCause::none) return {cause, {Location::Kind::element, first_cell_ + e}};
       if (ev.driven) {
         const Vec<Real, dofs> increment = gather(*ev.driven, e);
@@ -110,7 +122,7 @@ class BodyOf {
         return {FailureCause::not_finite, {Location::Kind::element, first_cell_ + e}};
       scatter(result_.residual, e, forces);
       if constexpr (condensed)
-        if (ev.constraint_force) scatter(dilatations_[k].force, e, *ev.constraint_force);
+        if (ev.constraint_force) scatter(condensed_[k].force, e, *ev.constraint_force);
       if (ev.want != Want::residual) ev.matrix.add(slots_[k], result_.tangent);
       memory_.set_trial(k, result_.states);
     }
@@ -120,7 +132,7 @@ class BodyOf {
   /// Makes the memory of the last evaluation the converged one.
   void commit() {
     memory_.commit();
-    dilatations_.commit();
+    condensed_.commit();
   }
 
   /// Calls visit(cell, point, F, state, weight) for the converged memory: F as the material sees it, weight the
@@ -129,7 +141,7 @@ class BodyOf {
   void visit_points(const Field& u, Visit&& visit) const {
     for (Index e = 0; e < mesh_.cell_count(); ++e) {
       const auto& geometry = geometry_[static_cast<std::size_t>(e)];
-      const auto F = Element::deformation(geometry, gather(u, e));
+      const auto F = deformation(geometry, gather(u, e), static_cast<std::size_t>(e));
       const auto& states = memory_.converged(static_cast<std::size_t>(e));
       for (std::size_t p = 0; p < F.size(); ++p) visit(e, static_cast<int>(p), F[p], states[p], geometry[p].weight);
     }
@@ -139,7 +151,7 @@ class BodyOf {
   void serialize(Archive& archive) {
     const std::string at = name_.empty() ? "body" : "body " + name_;
     memory_.serialize(archive, at + ", material memory");
-    dilatations_.serialize(archive, at + ", dilatations");
+    condensed_.serialize(archive, at + ", condensed unknowns");
   }
 
   /// Geometry of the quadrature points of a cell.
@@ -151,32 +163,32 @@ class BodyOf {
   static constexpr std::size_t bytes_per_point = std::is_empty_v<State> ? 0 : sizeof(State);
 
  private:
-  static constexpr bool condensed = has_condensed_unknown<Element>;
-  using Dilatations = std::conditional_t<condensed, CondensedUnknowns<dofs>, NoCondensedUnknowns>;
+  static constexpr bool condensed = condensed_unknowns<Element> > 0;
+  using Condensed = CondensedUnknowns<dofs, condensed_unknowns<Element>>;
   using Memory = History<std::array<State, Element::points>, !std::is_empty_v<State>>;
   using Geometry = typename Element::template Geometry<Kinematics>;
 
-  FailureCause evaluate_cell(std::size_t k, const Vec<Real, dofs>& local, Real dt, [[maybe_unused]] bool iterating,
+  FailureCause evaluate_cell(std::size_t k, const Vec<Real, dofs>& local, Real dt, [[maybe_unused]] Relation relation,
                              Want want) {
     const auto& states = memory_.converged(k);
-    if constexpr (condensed)
-      return evaluate_element<Element>(geometry_[k], material_, local, states, dt, result_, want,
-                                       iterating ? &dilatations_[k] : nullptr);
-    else
+    if constexpr (condensed) {
+      if (relation == Relation::closed) condensed_.begin(k);
+      return evaluate_element<Element>(geometry_[k], material_, local, states, dt, result_, want, condensed_[k],
+                                       relation);
+    } else
       return evaluate_element<Element>(geometry_[k], material_, local, states, dt, result_, want);
   }
 
+  auto deformation(const Geometry& geometry, const Vec<Real, dofs>& local, [[maybe_unused]] std::size_t k) const {
+    if constexpr (condensed)
+      return Element::deformation(geometry, local, condensed_.converged(k));
+    else
+      return Element::deformation(geometry, local);
+  }
+
   Geometry cell_geometry(Index e) const {
-    const auto& cell = mesh_.cells[static_cast<std::size_t>(e)];
-    Mat<Real, Element::nodes, dim> X;
-    for (int a = 0; a < Element::nodes; ++a) {
-      const Index n = cell[static_cast<std::size_t>(a)];
-      for (int i = 0; i < dim; ++i) X(a, i) = mesh_.nodes[static_cast<std::size_t>(n)][i];
-    }
-    Geometry geometry;
-    const auto rule = Element::Cell::quadrature();
-    for (std::size_t p = 0; p < rule.size(); ++p) {
-      geometry[p] = point_geometry<Kinematics, typename Element::Cell>(kinematics_, X, rule[p].xi, rule[p].weight);
+    const Geometry geometry = geometry_of<Element>(kinematics_, coordinates(e));
+    for (std::size_t p = 0; p < static_cast<std::size_t>(Element::points); ++p) {
       if (!(geometry[p].weight > 0) || !std::isfinite(geometry[p].weight))
         throw std::invalid_argument(
             "body: cell " + std::to_string(e) + " has no positive volume; its nodes must run counter-clockwise, " +
@@ -208,7 +220,7 @@ class BodyOf {
   Material material_;
   std::vector<Geometry> geometry_;
   [[no_unique_address]] Memory memory_;
-  [[no_unique_address]] Dilatations dilatations_;
+  [[no_unique_address]] Condensed condensed_;
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dofs))>> slots_;
   ElementResult<Real, dofs, Element::points, State> result_;
 };

@@ -38,9 +38,13 @@ class ElementMasses {
     mass_.reserve(body.mesh().cells.size());
     for (Index e = 0; e < body.mesh().cell_count(); ++e) {
       Mat<Real, nodes> m = Mat<Real, nodes>::Zero();
+      const auto X = body.coordinates(e);
       for (std::size_t p = 0; p < rule.size(); ++p) {
         const Vec<Real, nodes> N = Body::Element::Cell::shape(rule[p].xi);
-        add(m, product_transposed(N, N), density * body.geometry(e)[p].weight);
+        const Real volume = point_geometry<typename Body::Kinematics, typename Body::Element::Cell>(
+                                body.kinematics(), X, rule[p].xi, rule[p].weight)
+                                .weight;
+        add(m, product_transposed(N, N), density * volume);
       }
       if (lumped)
         for (int a = 0; a < nodes; ++a)

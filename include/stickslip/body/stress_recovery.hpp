@@ -27,7 +27,7 @@ class StressRecovery {
         nodal_(body.mesh().nodes.size()),
         share_(body.mesh().nodes.size()),
         error_(body.mesh().cells.size()) {
-    const auto rule = Body::Element::Cell::quadrature();
+    const auto rule = quadrature_of<typename Body::Element>();
     for (std::size_t p = 0; p < points; ++p) shape_[p] = Body::Element::Cell::shape(rule[p].xi);
   }
 

@@ -15,25 +15,25 @@ template <class Cell_ = Quad4>
 struct FullyIntegrated {
   using Role = role::Element;
   using Cell = Cell_;
-  static constexpr bool takes_want = true;
+  static constexpr bool takes_want = true, locks_in_bending = true;
   static constexpr int dim = Cell::dim, nodes = Cell::nodes, points = Cell::points;
 
-  template <class Kinematics, class G = Real>
-  using Geometry = std::array<PointGeometry<Kinematics, nodes, G>, points>;
+  template <class Kinematics>
+  using Geometry = std::array<PointGeometry<Kinematics, nodes>, points>;
 
   /// Deformation gradients that enter the material law at the quadrature points [-].
-  template <class Kinematics, class G, class S>
+  template <class Kinematics, class S>
   static std::array<Tensor<S, typename Kinematics::TensorPattern>, points> deformation(
-      const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry, const Vec<S, nodes * dim>& u) {
+      const std::array<PointGeometry<Kinematics, nodes>, points>& geometry, const Vec<S, nodes * dim>& u) {
     std::array<Tensor<S, typename Kinematics::TensorPattern>, points> F;
     for (std::size_t p = 0; p < points; ++p) F[p] = deformation_gradient(geometry[p], u);
     return F;
   }
 
   /// Nodal forces and tangent of one element (theory.md, eq. 2.4 and 2.5) for nodal displacements u.
-  template <class Kinematics, class G, class Material, class State, class S>
+  template <class Kinematics, class Material, class State, class S>
   [[gnu::noinline]] static FailureCause evaluate(
-      const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry, const Material& material,
+      const std::array<PointGeometry<Kinematics, nodes>, points>& geometry, const Material& material,
       const Vec<S, nodes * dim>& u, const std::array<State, points>& old, Real dt,
       ElementResult<S, nodes * dim, points, State>& out, Want want = Want::tangent) {
     using TensorPattern = typename Kinematics::TensorPattern;

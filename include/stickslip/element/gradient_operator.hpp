@@ -9,8 +9,8 @@ namespace stickslip {
 /// Gradient operator B of a quadrature point, delta F = B delta u, applied matrix-free (theory.md, eq. 2.3).
 
 /// Displacement gradient H = B u [-] for the nodal displacements u of the element [length].
-template <class Kinematics, int nodes, class G, class S>
-Tensor<S, typename Kinematics::TensorPattern> displacement_gradient(const PointGeometry<Kinematics, nodes, G>& point,
+template <class Kinematics, int nodes, class S>
+Tensor<S, typename Kinematics::TensorPattern> displacement_gradient(const PointGeometry<Kinematics, nodes>& point,
                                                                     const Vec<S, nodes * Kinematics::dim>& u) {
   constexpr int dim = Kinematics::dim;
   Tensor<S, typename Kinematics::TensorPattern> H;
@@ -23,15 +23,15 @@ Tensor<S, typename Kinematics::TensorPattern> displacement_gradient(const PointG
 }
 
 /// F = I + B u.
-template <class Kinematics, int nodes, class G, class S>
-Tensor<S, typename Kinematics::TensorPattern> deformation_gradient(const PointGeometry<Kinematics, nodes, G>& point,
+template <class Kinematics, int nodes, class S>
+Tensor<S, typename Kinematics::TensorPattern> deformation_gradient(const PointGeometry<Kinematics, nodes>& point,
                                                                    const Vec<S, nodes * Kinematics::dim>& u) {
   return plus_one(displacement_gradient(point, u));
 }
 
 /// Nodal forces B^T P, work-conjugate to u.
-template <class Kinematics, int nodes, class G, class S>
-Vec<S, nodes * Kinematics::dim> internal_force(const PointGeometry<Kinematics, nodes, G>& point,
+template <class Kinematics, int nodes, class S>
+Vec<S, nodes * Kinematics::dim> internal_force(const PointGeometry<Kinematics, nodes>& point,
                                                const Tensor<S, typename Kinematics::TensorPattern>& P) {
   constexpr int dim = Kinematics::dim;
   Vec<S, nodes * dim> r;
@@ -47,18 +47,18 @@ Vec<S, nodes * Kinematics::dim> internal_force(const PointGeometry<Kinematics, n
 }
 
 /// K += B^T M B; for a symmetric M only the lower triangle.
-template <Symmetry symmetry, class Kinematics, int nodes, class G, class S>
-void add_BtMB(const PointGeometry<Kinematics, nodes, G>& point, const Moduli<S, typename Kinematics::TensorPattern>& M,
+template <Symmetry symmetry, class Kinematics, int nodes, class S>
+void add_BtMB(const PointGeometry<Kinematics, nodes>& point, const Moduli<S, typename Kinematics::TensorPattern>& M,
               Mat<S, nodes * Kinematics::dim>& K) {
   using TensorPattern = typename Kinematics::TensorPattern;
   constexpr int dim = Kinematics::dim;
   for (int b = 0; b < nodes; ++b)
     for (int k = 0; k < dim; ++k) {
       // Eigen's product, not a loop: it saves a twentieth of the element's time in three dimensions.
-      Vec<S, TensorPattern::size> column = M.col(TensorPattern::at(k, 0)) * point.dN_dX(b, 0);
-      for (int L = 1; L < dim; ++L) column += M.col(TensorPattern::at(k, L)) * point.dN_dX(b, L);
+      Vec<S, TensorPattern::size> column = M.col(TensorPattern::at(k, 0)) * S(point.dN_dX(b, 0));
+      for (int L = 1; L < dim; ++L) column += M.col(TensorPattern::at(k, L)) * S(point.dN_dX(b, L));
       if constexpr (Kinematics::hoop)
-        if (k == 0) column += M.col(TensorPattern::at(2, 2)) * point.N_over_R[b];
+        if (k == 0) column += M.col(TensorPattern::at(2, 2)) * S(point.N_over_R[b]);
       for (int a = symmetry == Symmetry::symmetric ? b : 0; a < nodes; ++a) {
         for (int i = 0; i < dim; ++i) {
           S sum = point.dN_dX(a, 0) * column[TensorPattern::at(i, 0)];

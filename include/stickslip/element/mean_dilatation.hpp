@@ -21,36 +21,35 @@ template <class Cell_ = Quad4>
 struct MeanDilatation {
   using Role = role::Element;
   using Cell = Cell_;
-  static constexpr bool condensed_unknown = true;  ///< ln theta
-  static constexpr bool takes_want = true;
+  static constexpr int condensed_unknowns = 1;  ///< ln theta
+  static constexpr bool takes_want = true, locks_in_bending = true;
   static constexpr int dim = Cell::dim, nodes = Cell::nodes, points = Cell::points, dofs = nodes * dim;
 
-  template <class Kinematics, class G = Real>
-  using Geometry = std::array<PointGeometry<Kinematics, nodes, G>, points>;
+  template <class Kinematics>
+  using Geometry = std::array<PointGeometry<Kinematics, nodes>, points>;
 
-  /// Deformation gradients F_bar that enter the material law at the quadrature points [-].
-  template <class Kinematics, class G, class S>
+  /// Deformation gradients F_bar that enter the material law at the quadrature points [-], ln theta being the value of
+  /// the condensed unknown.
+  template <class Kinematics, class S>
   static std::array<Tensor<S, typename Kinematics::TensorPattern>, points> deformation(
-      const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry, const Vec<S, dofs>& u) {
-    using std::pow;
+      const std::array<PointGeometry<Kinematics, nodes>, points>& geometry, const Vec<S, dofs>& u,
+      const S& log_theta) {
     std::array<Tensor<S, typename Kinematics::TensorPattern>, points> F;
-    S volume = S(0), reference = S(0);
     for (std::size_t p = 0; p < points; ++p) {
-      F[p] = deformation_gradient(geometry[p], u);
-      volume += determinant(F[p]) * geometry[p].weight;
-      reference += S(geometry[p].weight);
+      const auto H = displacement_gradient(geometry[p], u);
+      const S stretch = exp_less_one((log_theta - log_one_plus(determinant_less_one(H))) / Real(3));
+      F[p].v = scaled(plus_one(H).v, S(1) + stretch);
     }
-    for (auto& f : F) f.v *= S(pow(volume / reference / determinant(f), Real(1) / 3));
     return F;
   }
 
-  /// Nodal forces and tangent of one element for nodal displacements u. With `dilatation`, ln theta is the value of the
-  /// condensed unknown instead of that of u (theory.md, eq. 6.11, 6.12).
-  template <class Kinematics, class G, class Material, class State, class S>
+  /// Nodal forces and tangent of one element for nodal displacements u. With an open relation, ln theta is the value of
+  /// the condensed unknown instead of that of u (theory.md, eq. 6.11, 6.12).
+  template <class Kinematics, class Material, class State, class S>
   [[gnu::noinline]] static FailureCause evaluate(
-      const std::array<PointGeometry<Kinematics, nodes, G>, points>& geometry, const Material& material,
+      const std::array<PointGeometry<Kinematics, nodes>, points>& geometry, const Material& material,
       const Vec<S, dofs>& u, const std::array<State, points>& old, Real dt, ElementResult<S, dofs, points, State>& out,
-      CondensedUnknown<S, dofs>* dilatation = nullptr, Want want = Want::tangent) {
+      CondensedUnknown<S, dofs>& dilatation, Relation relation, Want want = Want::tangent) {
     using TensorPattern = typename Kinematics::TensorPattern;
     constexpr Symmetry symmetry = Material::symmetry;
     constexpr int size = TensorPattern::size;
@@ -80,12 +79,15 @@ struct MeanDilatation {
     mean_div = scaled<S>(mean_div, S(1) / volume);
     S log_theta = log_one_plus(gained / reference);
     Vec<S, dofs> by_dilatation = Vec<S, dofs>::Zero();  // d force / d ln theta
-    if (dilatation) {
-      dilatation->residual = log_theta - dilatation->value;
+    const bool open = relation == Relation::open;
+    if (open) {
+      dilatation.residual = log_theta - dilatation.value;
       // A residual below the round-off of ln theta(u) counts as zero: the bulk modulus would turn it into forces.
-      if (std::abs(value_of(dilatation->residual)) <= roundoff(geometry[0], u)) dilatation->residual = S(0);
-      dilatation->gradient = mean_div;
-      log_theta = dilatation->value;
+      if (std::abs(value_of(dilatation.residual)) <= roundoff(geometry[0], u)) dilatation.residual = S(0);
+      dilatation.gradient = mean_div;
+      log_theta = dilatation.value;
+    } else {
+      dilatation.value = log_theta;
     }
 
     // Material law, forces, and the part of the tangent without sums over the points.
@@ -115,7 +117,7 @@ struct MeanDilatation {
       const Vec<S, dofs> stress_force = scaled<S>(internal_force(geometry[p], answer.P), weight * factor);
       add(out.residual, stress_force);
       add(out.residual, da, trace_tau);
-      if (!with_tangent && !dilatation) continue;
+      if (!with_tangent && !open) continue;
 
       const S squared = weight * factor * factor;
       Tensor<S, TensorPattern> moduli_F;
@@ -128,7 +130,7 @@ struct MeanDilatation {
         return sum;
       };
       const Vec<S, dofs> left = with_da(moduli_F);
-      if (dilatation) {
+      if (open) {
         add(by_dilatation, left, S(Real(1) / 3));
         add(by_dilatation, da, S(half_stretch * (Real(1) / 3)));
       }
@@ -146,7 +148,7 @@ struct MeanDilatation {
       spherical_sum += spherical[p];
     }
 
-    if (dilatation) dilatation->force = scaled(by_dilatation, dilatation->residual);
+    if (open) dilatation.force = scaled(by_dilatation, dilatation.residual);
     if (!with_tangent) return FailureCause::none;
 
     // Second derivatives of ln theta and ln J.
@@ -171,8 +173,8 @@ struct MeanDilatation {
 
  private:
   // Round-off of ln theta(u): the displacement gradient sums products of displacements and shape gradients.
-  template <class Kinematics, class G, class S>
-  static Real roundoff(const PointGeometry<Kinematics, nodes, G>& point, const Vec<S, dofs>& u) {
+  template <class Kinematics, class S>
+  static Real roundoff(const PointGeometry<Kinematics, nodes>& point, const Vec<S, dofs>& u) {
     Real moved = 0, gradient = 0;
     for (int c = 0; c < dofs; ++c) moved = std::max(moved, std::abs(value_of(u[c])));
     for (int a = 0; a < nodes; ++a)

@@ -14,17 +14,17 @@
 
 namespace stickslip {
 
-/// What one quadrature point of an element keeps of the reference mesh. `G` is the scalar of the geometry.
-template <class Kinematics, int nodes, class G = Real>
+/// What one quadrature point of an element keeps of the reference mesh.
+template <class Kinematics, int nodes>
 struct PointGeometry {
   using TensorPattern = typename Kinematics::TensorPattern;
   static constexpr int dim = Kinematics::dim;
   static constexpr int dofs = nodes * dim;
 
-  Mat<G, nodes, dim> dN_dX;  ///< reference gradients of the shape functions [1/length]
-  [[no_unique_address]] StoredIf<Kinematics::hoop, Vec<G, nodes>, struct HoopTag>
+  Mat<Real, nodes, dim> dN_dX;  ///< reference gradients of the shape functions [1/length]
+  [[no_unique_address]] StoredIf<Kinematics::hoop, Vec<Real, nodes>, struct HoopTag>
       N_over_R;  ///< hoop operator [1/length]
-  G weight;      ///< reference volume that the point stands for [length^3]
+  Real weight;   ///< reference volume that the point stands for [length^3]
 };
 
 /// Geometry of a point from the nodes' reference coordinates (one row a node).
@@ -53,6 +53,39 @@ PointGeometry<Kinematics, Cell::nodes> point_geometry(const Kinematics& kinemati
   return point;
 }
 
+namespace detail {
+template <class E>
+constexpr auto force_quadrature() {
+  if constexpr (requires { E::quadrature(); })
+    return E::quadrature();
+  else
+    return E::Cell::quadrature();
+}
+}  // namespace detail
+
+/// The rule with which an element integrates its forces: its own, or that of its cell. The mass has always that of the
+/// cell.
+template <class E>
+auto quadrature_of() {
+  return detail::force_quadrature<E>();
+}
+
+/// Geometry of an element from its nodes' reference coordinates (one row a node): what the element makes itself, or
+/// that of its points.
+template <class E, class Kinematics>
+typename E::template Geometry<Kinematics> geometry_of(const Kinematics& kinematics,
+                                                      const Mat<Real, E::nodes, E::dim>& X) {
+  if constexpr (requires { E::geometry(kinematics, X); }) {
+    return E::geometry(kinematics, X);
+  } else {
+    typename E::template Geometry<Kinematics> geometry;
+    const auto rule = quadrature_of<E>();
+    for (std::size_t p = 0; p < rule.size(); ++p)
+      geometry[p] = point_geometry<Kinematics, typename E::Cell>(kinematics, X, rule[p].xi, rule[p].weight);
+    return geometry;
+  }
+}
+
 /// What an element returns: nodal forces, their derivative (both triangles) and the memory of its points.
 template <class S, int dofs, int points, class State>
 struct ElementResult {
@@ -61,12 +94,20 @@ struct ElementResult {
   std::array<State, static_cast<std::size_t>(points)> states;
 };
 
-/// Whether an element has a condensed unknown: its `evaluate` then takes a CondensedUnknown<S, dofs>* after all else,
-/// null for a relation that is closed.
+namespace detail {
 template <class E>
-inline constexpr bool has_condensed_unknown = requires {
-  requires E::condensed_unknown;
-};
+constexpr int condensed_unknowns_of() {
+  if constexpr (requires { E::condensed_unknowns; })
+    return E::condensed_unknowns;
+  else
+    return 0;
+}
+}  // namespace detail
+
+/// How many condensed unknowns an element has. Where it has some, its `evaluate` takes a
+/// CondensedUnknown<S, dofs, count>& and a Relation after all else.
+template <class E>
+inline constexpr int condensed_unknowns = detail::condensed_unknowns_of<E>();
 
 /// Whether an element can leave the tangent out: its `evaluate` then takes a Want after all else.
 template <class E>
@@ -74,10 +115,11 @@ inline constexpr bool takes_want = requires {
   requires E::takes_want;
 };
 
-/// Evaluates an element, with the skills that it has. `condensed` is nothing, or a CondensedUnknown<S, dofs>*.
+/// Evaluates an element, with the skills that it has. `condensed` is nothing, or a CondensedUnknown<S, dofs, count>&
+/// and a Relation.
 template <class Element, class Geometry, class Material, class Vector, class States, class Result, class... Condensed>
 FailureCause evaluate_element(const Geometry& geometry, const Material& material, const Vector& u, const States& old,
-                              Real dt, Result& out, [[maybe_unused]] Want want, Condensed... condensed) {
+                              Real dt, Result& out, [[maybe_unused]] Want want, Condensed&&... condensed) {
   if constexpr (takes_want<Element>)
     return Element::evaluate(geometry, material, u, old, dt, out, condensed..., want);
   else

@@ -88,6 +88,28 @@ Mat<S, rows, columns> product_transposed(const Mat<S, rows, inner>& a, const Mat
   return r;
 }
 
+/// Inverse of a matrix of two or three rows, and its determinant.
+template <class S, int n>
+Mat<S, n> inverse(const Mat<S, n>& m, S& det) {
+  static_assert(n == 2 || n == 3);
+  Mat<S, n> r;
+  if constexpr (n == 2) {
+    r(0, 0) = m(1, 1);
+    r(1, 1) = m(0, 0);
+    r(0, 1) = -m(0, 1);
+    r(1, 0) = -m(1, 0);
+    det = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
+  } else {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+        r(i, j) = m(a, c) * m(b, d) - m(a, d) * m(b, c);
+      }
+    det = m(0, 0) * r(0, 0) + m(0, 1) * r(1, 0) + m(0, 2) * r(2, 0);
+  }
+  return scaled(r, S(S(1) / det));
+}
+
 /// a x b.
 template <class S>
 Vec<S, 3> cross(const Vec<S, 3>& a, const Vec<S, 3>& b) {

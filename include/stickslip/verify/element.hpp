@@ -25,42 +25,49 @@ struct SingleElement {
   Material material{};
   Mat<Real, Element::nodes, Element::dim> X;
 
-  /// Geometry of the quadrature points with the scalar type S.
+  static constexpr int unknowns = condensed_unknowns<Element>;
   template <class S>
-  typename Element::template Geometry<Kinematics, S> geometry_in() const {
-    typename Element::template Geometry<Kinematics, S> geometry;
-    const auto rule = Element::Cell::quadrature();
-    for (std::size_t p = 0; p < rule.size(); ++p) {
-      const auto plain = point_geometry<Kinematics, typename Element::Cell>(kinematics, X, rule[p].xi, rule[p].weight);
-      geometry[p].dN_dX = plain.dN_dX.template cast<S>();
-      if constexpr (Kinematics::hoop) geometry[p].N_over_R = plain.N_over_R.template cast<S>();
-      geometry[p].weight = S(plain.weight);
-    }
-    return geometry;
-  }
+  using Condensed = CondensedUnknown<S, dofs, unknowns == 0 ? 1 : unknowns>;
+  using Value = typename Condensed<Real>::Value;
+
+  typename Element::template Geometry<Kinematics> geometry() const { return geometry_of<Element>(kinematics, X); }
 
   /// Forces, tangent and states at the displacements u [length]. NaN forces if the element fails.
   template <class S>
   Result<S> at(const Vec<S, dofs>& u, const Memory<S>& old, Real dt = 1) const {
-    const typename Element::template Geometry<Kinematics, S> geometry = geometry_in<S>();
-    Result<S> result;
-    if (Element::evaluate(geometry, material, u, old, dt, result) != FailureCause::none)
-      result.residual.setConstant(S(std::numeric_limits<Real>::quiet_NaN()));
-    return result;
+    Condensed<S> condensed;
+    return evaluate(u, old, dt, Relation::closed, condensed);
   }
 
-  /// The same with the element's condensed unknown open at `value`.
-  RelationSample<dofs> open(const Vec<Real, dofs>& u, const Memory<Real>& old, Real value,
-                            Real dt = 1) const requires has_condensed_unknown<Element> {
-    const auto geometry = geometry_in<Real>();
-    Result<Real> result;
-    RelationSample<dofs> sample;
+  /// The same with the element's condensed unknowns open at `value`.
+  RelationSample<dofs, unknowns> open(const Vec<Real, dofs>& u, const Memory<Real>& old, const Value& value,
+                                      Real dt = 1) const requires(unknowns > 0) {
+    RelationSample<dofs, unknowns> sample;
     sample.relation.value = value;
-    if (Element::evaluate(geometry, material, u, old, dt, result, &sample.relation) != FailureCause::none)
-      result.residual.setConstant(std::numeric_limits<Real>::quiet_NaN());
+    const Result<Real> result = evaluate(u, old, dt, Relation::open, sample.relation);
     sample.force = result.residual;
     sample.tangent = result.tangent;
     return sample;
+  }
+
+  /// The value of the element's condensed unknowns where their relations are closed.
+  Value closed(const Vec<Real, dofs>& u, const Memory<Real>& old, Real dt = 1) const requires(unknowns > 0) {
+    Condensed<Real> condensed;
+    evaluate(u, old, dt, Relation::closed, condensed);
+    return condensed.value;
+  }
+
+  /// Deformation gradients that the material sees at the displacements u.
+  template <class S>
+  auto deformation(const Vec<S, dofs>& u, [[maybe_unused]] const Memory<S>& old = {},
+                   [[maybe_unused]] Real dt = 1) const {
+    if constexpr (unknowns > 0) {
+      Condensed<S> condensed;
+      evaluate(u, old, dt, Relation::closed, condensed);
+      return Element::deformation(geometry(), u, condensed.value);
+    } else {
+      return Element::deformation(geometry(), u);
+    }
   }
 
   /// States after all but the last displacements of a path.
@@ -73,6 +80,20 @@ struct SingleElement {
       memory = at<S>(u, memory, dt).states;
     }
     return memory;
+  }
+
+ private:
+  template <class S>
+  Result<S> evaluate(const Vec<S, dofs>& u, const Memory<S>& old, Real dt, [[maybe_unused]] Relation relation,
+                     [[maybe_unused]] Condensed<S>& condensed) const {
+    Result<S> result;
+    FailureCause cause;
+    if constexpr (unknowns > 0)
+      cause = evaluate_element<Element>(geometry(), material, u, old, dt, result, Want::tangent, condensed, relation);
+    else
+      cause = evaluate_element<Element>(geometry(), material, u, old, dt, result, Want::tangent);
+    if (cause != FailureCause::none) result.residual.setConstant(S(std::numeric_limits<Real>::quiet_NaN()));
+    return result;
   }
 };
 

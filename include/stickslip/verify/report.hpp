@@ -74,33 +74,55 @@ Mat<Real, rows, n> slopes(const Vec<Dual<n>, rows>& y) {
   return jacobian;
 }
 
-/// Forces, tangent and condensed unknown of a kernel at a position and a value of the unknown.
-template <int n>
+/// Forces, tangent and condensed unknowns of a kernel at a position and a value of the unknowns.
+template <int n, int m = 1>
 struct RelationSample {
   Vec<Real, n> force;
   Mat<Real, n> tangent;
-  CondensedUnknown<Real, n> relation;
+  CondensedUnknown<Real, n, m> relation;
 };
 
-/// Errors of the linearisation of an open condensed unknown (theory.md, eq. 6.11), relative to central differences.
+/// Errors of the linearisation of open condensed unknowns (theory.md, eq. 6.11), relative to central differences.
 struct RelationReport {
-  Real gradient = 0;  ///< error of the gradient of the constraint residual
+  Real gradient = 0;  ///< error of the gradient of the constraint residual, 0 where that is no function of the place
   Real force = 0;     ///< error of the constraint force
-  Real tangent = 0;   ///< error of the tangent with the unknown condensed
+  Real tangent = 0;   ///< error of the tangent with the unknowns condensed
 };
 
-/// Checks the condensed unknown of at(x, value) -> RelationSample.
-template <int n, class At>
-RelationReport relation_report(const Vec<Real, n>& x, Real value, Real step, Real value_step, At&& at) {
-  const RelationSample<n> now = at(x, value);
-  const Mat<Real, 1, n> slope =
-      differentiate<1, n>(x, step, [&](const Vec<Real, n>& y) { return Vec<Real, 1>(at(y, value).relation.residual); });
-  const Vec<Real, n> by_value =
-      differentiate<n, 1>(Vec<Real, 1>(value), value_step, [&](const Vec<Real, 1>& v) { return at(x, v[0]).force; });
+/// Checks the condensed unknowns of at(x, value) -> RelationSample. Where their relation is no explicit function of the
+/// place, `residual` and `gradient` being those of its linearisation, `gradient` of the report is 0.
+template <int n, int m = 1, class At>
+RelationReport relation_report(const Vec<Real, n>& x, const typename CondensedUnknown<Real, n, m>::Value& value,
+                               Real step, Real value_step, At&& at, bool explicit_relation = true) {
+  using Value = typename CondensedUnknown<Real, n, m>::Value;
+  const auto vector = [](const Value& v) {
+    Vec<Real, m> r;
+    if constexpr (m == 1)
+      r[0] = v;
+    else
+      r = v;
+    return r;
+  };
+  const auto of_vector = [](const Vec<Real, m>& v) {
+    if constexpr (m == 1)
+      return v[0];
+    else
+      return v;
+  };
+  const RelationSample<n, m> now = at(x, value);
+  const Mat<Real, n, m> by_value =
+      differentiate<n, m>(vector(value), value_step, [&](const Vec<Real, m>& v) { return at(x, of_vector(v)).force; });
   const Mat<Real, n> by_place = differentiate<n, n>(x, step, [&](const Vec<Real, n>& y) { return at(y, value).force; });
-  return {relative_error(now.relation.gradient.transpose(), slope),
-          relative_error(now.relation.force, Vec<Real, n>(by_value * now.relation.residual)),
-          relative_error(now.tangent, Mat<Real, n>(by_place + by_value * slope))};
+  RelationReport report;
+  if (explicit_relation) {
+    const Mat<Real, m, n> slope =
+        differentiate<m, n>(x, step, [&](const Vec<Real, n>& y) { return vector(at(y, value).relation.residual); });
+    report.gradient = relative_error(now.relation.gradient.transpose(), slope);
+  }
+  const Mat<Real, m, n> gradient = now.relation.gradient.transpose();
+  report.force = relative_error(now.relation.force, Vec<Real, n>(by_value * vector(now.relation.residual)));
+  report.tangent = relative_error(now.tangent, Mat<Real, n>(by_place + by_value * gradient));
+  return report;
 }
 
 /// Rotation by `angle` [rad]: in the plane, or in three dimensions about (1, 2, 2) / 3.
