@@ -36,7 +36,7 @@ class ThinCells {
 
   bool none() const { return cells_.empty(); }
   /// Adds the cells of a mesh whose first node and cell have these numbers.
-  void add_mesh(const Mesh<dim, nodes>& mesh, Index first_node, Index first_cell) {
+  [[gnu::cold]] void add_mesh(const Mesh<dim, nodes>& mesh, Index first_node, Index first_cell) {
     const Mat<Real, nodes, dim> slope = Cell::gradient(Vec<Real, dim>::Zero());
     for (Index e = 0; e < mesh.cell_count(); ++e) {
       const auto& cell = mesh.cells[static_cast<std::size_t>(e)];
