@@ -85,11 +85,14 @@ struct With : Free {
 template <class E>
 constexpr std::size_t body_size = sizeof(Body<With<E>>);
 static_assert(std::is_empty_v<CondensedUnknowns<8, 0>> && std::is_empty_v<CondensedUnknowns<24, 0>>);
-// Within what the alignment of the body may pad.
+// But for what the alignment of a body pads.
+template <class E>
+constexpr std::size_t kept = body_size<E> - body_size<FullyIntegrated<Quad4>>;
 template <class E, int count>
-constexpr std::size_t beyond = body_size<E> - body_size<FullyIntegrated<Quad4>> - sizeof(CondensedUnknowns<8, count>);
-static_assert(beyond<MeanDilatation<Quad4>, 1> < alignof(Body<Free>));
-static_assert(beyond<AssumedStrain<Quad4>, 5> < alignof(Body<Free>));
+constexpr bool keeps_these_alone = kept<E> < sizeof(CondensedUnknowns<8, count>) + alignof(Body<Free>) &&
+                                   sizeof(CondensedUnknowns<8, count>) < kept<E> + alignof(Body<Free>);
+static_assert(keeps_these_alone<MeanDilatation<Quad4>, 1>);
+static_assert(keeps_these_alone<AssumedStrain<Quad4>, 5>);
 static_assert(sizeof(CondensedUnknown<Real, 8, 5>) == (5 + 5 + 8 * 5 + 8) * sizeof(Real));
 static_assert(sizeof(CondensedUnknown<Real, 24, 7>) == (7 + 7 + 24 * 7 + 24) * sizeof(Real));
 
