@@ -24,6 +24,7 @@ struct AssumedStrainGeometry {
     [[no_unique_address]] StoredIf<Kinematics::hoop, Vec<Real, nodes>, struct HoopTag>
         N_over_R;  ///< hoop operator [1/length]
     Real weight;   ///< reference volume that the point stands for [length^3]
+    Real share;    ///< of the element's volume [-]
   };
 
   Mat<Real, nodes, dim> gradient;     ///< <grad N_a> . g_j [-]
@@ -56,6 +57,7 @@ struct AssumedStrainGeometry {
       add(gradient, along[p], plain.weight);
     }
     gradient = scaled(gradient, 1 / volume);
+    for (Point& point : at) point.share = point.weight / volume;
 
     // Products of reference coordinates at the nodes, without what a linear field has of them.
     Mat<Real, nodes, modes> h;
@@ -73,7 +75,7 @@ struct AssumedStrainGeometry {
       Real det_here;
       inverse(jacobian, det_here);
       phi[p] = scaled(rule[p].xi, det / det_here);
-      add(mean, phi[p], at[p].weight / volume);
+      add(mean, phi[p], at[p].share);
     }
     for (std::size_t p = 0; p < points; ++p) {
       add(phi[p], mean, -1.);
@@ -84,11 +86,11 @@ struct AssumedStrainGeometry {
     for (int k = 1; k <= dim; ++k) {
       for (int l = 0; l < k; ++l) {
         Real share = 0;
-        for (const Point& point : at) share += point.weight / volume * point.dilatation[k] * point.dilatation[l];
+        for (const Point& point : at) share += point.share * point.dilatation[k] * point.dilatation[l];
         for (Point& point : at) point.dilatation[k] -= share * point.dilatation[l];
       }
       Real square = 0;
-      for (const Point& point : at) square += point.weight / volume * point.dilatation[k] * point.dilatation[k];
+      for (const Point& point : at) square += point.share * point.dilatation[k] * point.dilatation[k];
       for (Point& point : at) point.dilatation[k] /= std::sqrt(square);
     }
   }

@@ -120,7 +120,7 @@ class AssumedStrainKernel {
     Point& point = point_[p];
     S log_J = S(0);
     for (int k = 0; k < dilatations; ++k) log_J += S(geometry_[p].dilatation[k]) * theta[k];
-    const S stretch = exp_less_one((log_J - point.log_J) / Real(3));
+    const S stretch = exp_less_one((log_J - point.log_J) * S(1. / 3));
     point.factor = S(1) + stretch;
     Deformation<S, TensorPattern> d;
     d.H.v = scaled(point.H.v, point.factor);
@@ -150,7 +150,7 @@ class AssumedStrainKernel {
       Point& point = point_[p];
       point.stress = contravariant(point.stress);
       point.trace = contraction(point.stress, point.G);
-      for (int k = 0; k < dilatations; ++k) pressure[k] += S(geometry_[p].dilatation[k]) * point.trace / Real(3);
+      for (int k = 0; k < dilatations; ++k) pressure[k] += S(geometry_[p].dilatation[k]) * point.trace * S(1. / 3);
     }
 
     Mat<S, columns, variables> H;  // transposed: row j, column i is the derivative of force i by variable j
@@ -178,16 +178,16 @@ class AssumedStrainKernel {
         BR = transposed_product(M, G);
         add(BR, Q);
       }
-      const S eta = contraction(G, BL), third = point.trace / Real(3);
+      const S eta = contraction(G, BL), third = point.trace * S(1. / 3);
       S projected = S(0);
       for (int k = 0; k < dilatations; ++k) projected += S(share(p, k)) * pressure[k];
 
       Mat<S, vectors, size> v;  // rows: stress, derivative of the forces by the dilatation, N, that of the pressure
       for (int a = 0; a < size; ++a) {
         v(0, a) = Q[a] + (projected - third) * N[a];
-        v(1, a) = (BL[a] - eta / Real(3) * N[a]) / Real(3);
+        v(1, a) = (BL[a] - eta * S(1. / 3) * N[a]) * S(1. / 3);
         v(2, a) = N[a];
-        if constexpr (general) v(3, a) = (BR[a] - eta / Real(3) * N[a]) / Real(3);
+        if constexpr (general) v(3, a) = (BR[a] - eta * S(1. / 3) * N[a]) * S(1. / 3);
       }
       Mat<S, vectors, variables> w;
       pull<variables, Into::all>(g, point.K, v, w);
@@ -201,7 +201,7 @@ class AssumedStrainKernel {
         }
       }
       for (int k = 0; k < dilatations; ++k)
-        for (int l = 0; l < dilatations; ++l) bulk(k, l) += S(g.dilatation[k] * g.dilatation[l]) * eta / Real(9);
+        for (int l = 0; l < dilatations; ++l) bulk(k, l) += S(g.dilatation[k] * g.dilatation[l]) * eta * S(1. / 9);
 
       // The derivative of the stress that forces take.
       const S swirl = third - projected;
@@ -331,7 +331,7 @@ class AssumedStrainKernel {
   };
 
   // Weight of ln J of a point in dilatation k.
-  Real share(std::size_t p, int k) const { return geometry_[p].weight * geometry_[p].dilatation[k] / geometry_.volume; }
+  Real share(std::size_t p, int k) const { return geometry_[p].share * geometry_[p].dilatation[k]; }
 
   static Mat<S, dim> sum(const Mat<S, dim>& a, const Mat<S, dim>& b) {
     Mat<S, dim> r = a;
