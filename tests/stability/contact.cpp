@@ -297,7 +297,7 @@ const HardCase cut("steps", "fail, cut, go on", all_laws, "field of the same sma
                        MarchOptions coarse = steps(1, 2);
                        coarse.max_iterations = b.augmented                  ? 6
                                                : b.name[0] == 'S'           ? 12
-                                               : b.lags || b.name[0] == 'L' ? 4
+                                               : b.lags || b.name[0] == 'L' ? 6
                                                                             : 5;  // so that large steps fail
                        coarse.smallest = 1e-4;
                        const CaseResult p = completes(c, b, indent(0.3, {coarse}),

@@ -56,6 +56,7 @@ class StartsLagged : public StartsAugmented<Memory> {
   explicit StartsLagged(std::size_t nodes) : StartsAugmented<Memory>(nodes) {
     lag_increment_.setZero(static_cast<Index>(nodes));
     bound_pressure_ = own_change_ = own_pressure_ = lag_increment_;
+    own_relaxation_.next(own_change_);  // makes room, for within an iteration nothing is allocated
   }
   void reset(const History<Memory>& history) {
     StartsAugmented<Memory>::reset(history);
@@ -80,12 +81,9 @@ class StartsLagged : public StartsAugmented<Memory> {
       const auto k = static_cast<std::size_t>(i);
       own_change_[i] = uses_own(k, history) ? std::max(0.0, predicted(k)) - own_pressure_[i] : 0;
     }
-    // The change of a node's pressure by its own friction may be more than the friction: changes that do not fall as
-    // Newton's do are relaxed (eq. 5.32).
-    const Real size = own_change_.norm();
-    if (looks_ < 2 || size < 0.5 * own_size_) own_relaxation_.restart();
+    // The change of a node's pressure by its own friction may be more than the friction (eq. 5.32).
+    if (looks_ < 2) own_relaxation_.restart();
     own_relaxation_.next(own_change_);
-    own_size_ = size;
     for (Index i = 0; i < own_pressure_.size(); ++i)
       own_pressure_[i] = std::max(0.0, own_pressure_[i] + own_relaxation_.omega * own_change_[i]);
     ++looks_;
@@ -160,7 +158,6 @@ class StartsLagged : public StartsAugmented<Memory> {
   Field bound_pressure_, lag_increment_;  // that the last bounds are of [force], and what the pressures exceed it by
   Field own_pressure_, own_change_;       // of the step [force]
   Relaxation own_relaxation_, relaxation_;
-  Real own_size_ = 0;     // norm of the last change of those [force]
   int looks_ = 0;         // at the iteration's pressures so far
   bool uses_own_ = true;  // until an outer iteration or a probe sets the bounds
   bool own_of_all_ = false;
