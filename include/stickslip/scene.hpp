@@ -293,8 +293,10 @@ class Scene : public BodyScene<Bodies<Model>> {
       Base::reactions_, Base::time_, Base::last_dt_, Base::increment_before_dt_, Base::changed_;
 
   // Makes the discrete system, unless supports and loads are the same as before, and at time 0 the state to start from.
-  [[gnu::cold]] void prepare() {
-    if (system_ && !changed_) return;
+  void prepare() {
+    if (!system_ || changed_) make_system();
+  }
+  [[gnu::cold]] void make_system() {
     const Timings spent = system_ ? system_->timings : Timings{};
     const Index revision_of_pattern = system_ ? system_->pattern_revision() : numberings_;
     diagnosis_.reset();
