@@ -19,9 +19,14 @@ def check(condition, what):
     assert condition, what
 
 
+def told(done):
+    """What a run says on standard error, but for its warning of thin cells that bend."""
+    return [line for line in done.stderr.splitlines() if not (": warning: cell" in line and "times as long as thick and bends" in line)]
+
+
 def result(program, *options):
     done = run(program, *options, "--json", "-")
-    check(done.returncode == 0 and done.stderr == "", (options, done.stderr))
+    check(done.returncode == 0 and told(done) == [], (options, done.stderr))
     return json.loads(done.stdout)
 
 
@@ -31,6 +36,7 @@ for options, words in [
     (["--solver-table", "please"], ["--solver-table", '"please"', "off, on"]),
     (["--refine", "0"], ["--refine", '"0"']),
     (["--travel", "0"], ["--travel", '"0"']),
+    (["--element", "assumed-strain", "--solver", "corrected-cholmod", "--friction", "coulomb"], ["--solver", '"corrected-cholmod"', "--element assumed-strain"]),
 ]:
     done = run(sheet, *options)
     check(done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1, (options, done.stderr))
@@ -64,13 +70,20 @@ for law, solver in (("coulomb", "umfpack"), ("quasi-coulomb", "cholmod")):
     check(abs(b["final_force_N"] / a["final_force_N"] - 1) < 0.03, (law, a["final_force_N"], b["final_force_N"]))
     check(abs(b["history"]["displacement_mm"][-1] - 8) < 1e-12, "travel")
 
+# The element that bends: at 2 mm, on this mesh, within 5 % of 374 N, the force of the axisymmetric program on meshes that
+# leave no error in it; the other element errs by more than that force.
+for element, low, high in (("assumed-strain", 0.95, 1.05), ("mean-dilatation", 2, 3)):
+    for law, solver in (("coulomb", "umfpack"), ("quasi-coulomb", "cholmod")):
+        r = result(sheet, "--element", element, "--friction", law, "--solver", solver, "--travel", "2", "--steps", "20")
+        check(low < r["final_force_N"] / 374 < high, (element, law, r["final_force_N"]))
+
 # The table has a line for every solver that takes the system, and says which could not be finished.
 options = ["--friction", "quasi-coulomb", "--travel", "0.2", "--solver-table", "on"]
 done = run(sheet, *options)
 if done.returncode == 2 and "AddressSanitizer does not let it" in done.stderr:
     print(f"{checks} passed, 0 failed; no table in this build")
     sys.exit()
-check(done.returncode == 0 and done.stderr == "", done.stderr)
+check(done.returncode == 0 and told(done) == [], done.stderr)
 lines = done.stdout.splitlines()
 check(lines[0].startswith("1302 unknowns, quasi-coulomb") and [line.split()[0] for line in lines[2:]] == listed["quasi-coulomb"], done.stdout)
 for line in lines[2:]:
