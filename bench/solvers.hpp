@@ -22,7 +22,7 @@ inline void count(benchmark::State& state, const stickslip::SparseView& matrix) 
 template <class Solver>
 void factorize(benchmark::State& state) {
   Forming<Stretching<WidestFriction<Solver>, Solver>> forming(static_cast<stickslip::Index>(state.range(0)));
-  const stickslip::SparseView matrix = forming.system.matrix();
+  const stickslip::SparseView matrix = forming.system.tangent().stored;
   Solver solver;
   solver.analyze(matrix);
   for (auto _ : state)
@@ -34,14 +34,15 @@ void factorize(benchmark::State& state) {
 template <class Solver>
 void solve(benchmark::State& state) {
   Forming<Stretching<WidestFriction<Solver>, Solver>> forming(static_cast<stickslip::Index>(state.range(0)));
-  const stickslip::SparseView matrix = forming.system.matrix();
+  const stickslip::SparseView matrix = forming.system.tangent().stored;
   Solver solver;
   solver.analyze(matrix);
   if (solver.factorize(matrix) == stickslip::Factorization::failed)
     return state.SkipWithError("the factorisation failed");
   stickslip::Field x = forming.system.forces().residual;
   for (auto _ : state) {
-    if (!solver.solve(forming.system.forces().residual.data(), x.data())) return state.SkipWithError("the solution failed");
+    if (!solver.solve(forming.system.forces().residual.data(), x.data()))
+      return state.SkipWithError("the solution failed");
     benchmark::ClobberMemory();
   }
   count(state, matrix);

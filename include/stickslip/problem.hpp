@@ -387,7 +387,7 @@ typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field&
     driven_ = u - problem_.u_;
     if (!problem_.proven_ || system.space().max(driven_) > system.bodies().extent() ||
         diagnosis.loose_part(false) >= 0) {
-      if (!system.has_tangent()) {
+      if (!system.tangent().current) {
         ++newton_.counts.evaluations;
         ++newton_.counts.evaluations_repeated;
         if (const Failure f = iterate.add_tangent(u, step.time, step.dt)) return {f, {}};

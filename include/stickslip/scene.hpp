@@ -298,7 +298,7 @@ class Scene : public BodyScene<Bodies<Model>> {
   }
   [[gnu::cold]] void make_system() {
     const Timings spent = system_ ? system_->timings : Timings{};
-    const Index revision_of_pattern = system_ ? system_->pattern_revision() : numberings_;
+    const Index revision_of_pattern = system_ ? system_->tangent().revision : numberings_;
     diagnosis_.reset();
     system_.reset();
     numberings_ = revision_of_pattern + 1;

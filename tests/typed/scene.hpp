@@ -133,7 +133,7 @@ Answer press_and_drag() {
     if constexpr (with_wall) step.wall = in_space(problem.contact_force("wall"));
     for (Index i = 0; i < dim; ++i)
       step.supports[i] = problem.reaction("bottom", i) + (has_contact<Model> ? 0 : problem.reaction("top", i));
-    answer.asymmetry = std::max(answer.asymmetry, asymmetry(problem.system().matrix()));
+    answer.asymmetry = std::max(answer.asymmetry, asymmetry(problem.system().tangent().stored));
     if constexpr (has_inertia<Model>) {
       Field force = Field::Zero(acceleration.size());
       problem.inertia().add_product(

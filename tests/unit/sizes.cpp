@@ -138,7 +138,7 @@ static_assert(sizeof(Both) == sizeof(Real));
 
 template <class M>
 SparseView view_of(System<M>& system) {
-  return system.matrix();
+  return system.tangent().stored;
 }
 
 TEST_CASE("a symmetric system stores its lower triangle only") {
@@ -149,7 +149,7 @@ TEST_CASE("a symmetric system stores its lower triangle only") {
     ContactPairs<M> pairs;
     typename System<M>::Inertia inertia{};
     System<M> system(body, pairs, inertia, {{"bottom", 1, nullptr}}, {});
-    const SparseView view = system.matrix();
+    const SparseView view = system.tangent().stored;
     bool upper = false;
     for (Index j = 0; j < view.size; ++j)
       for (Index k = view.column_start[j]; k < view.column_start[j + 1]; ++k) upper = upper || view.row[k] < j;

@@ -125,7 +125,7 @@ class Diagnosis : public detail::PartSupports<typename Model::Kinematics> {
   /// evaluation resist. With `moved`, one that has moved so in that displacement besides: a motion that balance leaves
   /// open. -1 if there is none; see `part_name`.
   Index free_part(const Field& u, const Field* moved = nullptr) {
-    return Base::free_part(u, system_.dofs(), system_.tangent(), system_.forces().norm, moved);
+    return Base::free_part(u, system_.dofs(), system_.tangent().view(), system_.forces().norm, moved);
   }
   /// A part of the body that may shift in some direction, for it has no support there and touches no tool; at the start
   /// of a run (`ever`), for it has no node that could. -1 if there is none. Deformation resists no shift.

@@ -130,7 +130,7 @@ class Newton {
         report.failure.cause = FailureCause::not_converged;
         return report;
       }
-      if (!system.has_tangent()) {  // convergence was predicted, and did not come
+      if (!system.tangent().current) {  // convergence was predicted, and did not come
         ++counts.evaluations;
         ++counts.evaluations_repeated;
         ++counts.tangents_unused;
@@ -214,15 +214,15 @@ class Newton {
  private:
   template <class System>
   void prepare(System& system) {
-    if (analyzed_ == system.pattern_revision()) return;
+    if (analyzed_ == system.tangent().revision) return;
     const Stopwatch watch(system.timings.factorization);
-    solver_.analyze(system.matrix());
+    solver_.analyze(system.tangent().stored);
     step_.setZero(system.dofs().unknowns());
     start_.setZero(system.dofs().components());
     change_ = start_;
     if constexpr (inexact_tangent) probes_.krylov.resize(system.dofs().unknowns(), system.space());
     if constexpr (is_direct<Solver>) digits_.resize(system.dofs().unknowns());
-    analyzed_ = system.pattern_revision();
+    analyzed_ = system.tangent().revision;
   }
 
   // Evaluates the iterate, and counts.
@@ -264,7 +264,7 @@ class Newton {
     if (step_.size() == 0) return {};  // nothing to solve for; the condensed unknowns close all the same
     {
       const Stopwatch watch(system.timings.factorization);
-      const Factorization f = solver_.factorize(system.tangent());
+      const Factorization f = solver_.factorize(system.tangent().view());
       ++counts.factorizations;
       --counts.tangents_unused;
       if (f == Factorization::indefinite) ++counts.indefinite_factorizations;
@@ -276,8 +276,9 @@ class Newton {
     if constexpr (is_direct<Solver>)
       if (!std::exchange(judged_, true)) {
         const Stopwatch watch(system.timings.solve);
-        const Real condition = digits_.condition(
-            system.tangent(), system.space(), [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
+        const Real condition =
+            digits_.condition(system.tangent().view(), system.space(),
+                              [this](const Field& b, Field& x) { return probe(b.data(), x.data()); });
         if (condition > FactorDigits::limit) return {FailureCause::singular_matrix, {}};
       }
     const Index corrections = corrections_so_far();

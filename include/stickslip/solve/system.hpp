@@ -120,6 +120,20 @@ class Balance {
 };
 }  // namespace detail
 
+/// The matrix of a system.
+struct SystemTangent {
+  SparseView stored;  ///< as it stands: its pattern, and the tangent of the last evaluation that was asked for one
+  bool current;       ///< whether that is the tangent of the last evaluation
+  Index revision;     ///< another one when the pattern has changed and the solver must analyse again
+
+  /// The tangent of the last evaluation; it must have one.
+  const SparseView& view() const {
+    assert(current &&
+           "System::tangent needs an evaluation with Want::tangent, or Iterate::add_tangent, as the last one");
+    return stored;
+  }
+};
+
 /// The discrete balance of a scene: residual and tangent as a function of the nodal displacements (theory.md, eq. 1.1),
 /// the sum of its terms: bodies, contact pairs and inertia. What a model does not have is an empty term.
 template <class Model>
@@ -156,23 +170,13 @@ class System : detail::Balance {
   const IndexMap& dofs() const { return dofs_; }
   /// Takes the norms and products of vectors by component or unknown, for all who solve for them.
   const Space& space() const { return space_; }
-  /// The matrix as it stands: its pattern, and the tangent of the last evaluation that was asked for one.
-  SparseView matrix() const {
-    if (condenses()) return condensed_.view();
+  /// The matrix, and what is known of it.
+  SystemTangent tangent() const {
+    if (condenses()) return {condensed_.view(), has_tangent_, pattern_revision_};
     SparseView view = matrix_.view();
     view.corrections = couplings_.view();
-    return view;
+    return {view, has_tangent_, pattern_revision_};
   }
-  /// Whether that is the tangent of the last evaluation.
-  bool has_tangent() const { return has_tangent_; }
-  /// The tangent of the last evaluation; it must have one.
-  SparseView tangent() const {
-    assert(has_tangent_ &&
-           "System::tangent needs an evaluation with Want::tangent, or Iterate::add_tangent, as the last one");
-    return matrix();
-  }
-  /// Another one when the pattern has changed and the solver must analyse again.
-  Index pattern_revision() const { return pattern_revision_; }
   /// Supports and loads.
   const Prescribed& prescribed() const { return prescribed_; }
   BodiesType& bodies() { return bodies_; }
