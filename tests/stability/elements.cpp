@@ -10,7 +10,7 @@ using namespace stability;
 const char* const elastic_model = "AssumedStrain, QuasiCoulomb, EigenLdlt";
 const char* const plastic_model = "AssumedStrain, J2, QuasiCoulomb, EigenLdlt";
 
-MarchOptions steps(Real end, Index count, Real tolerance = 1e-10) {
+MarchOptions equal_steps(Real end, Index count, Real tolerance = 1e-10) {
   return {.end = end, .steps = count, .tolerance = tolerance};
 }
 
@@ -25,7 +25,7 @@ CaseSetup pulled(Real poisson, Real stretch, Index count, Real tilt) {
   s.driven = {held("left", 0), held("bottom", 1), {"top", 1, [stretch](Real t) {
                                                      return 2 * (std::exp(t * std::log(stretch)) - 1);
                                                    }}};
-  s.marches = {steps(1, count)};
+  s.marches = {equal_steps(1, count)};
   return s;
 }
 const HardCase trapezoids(
@@ -68,7 +68,7 @@ const HardCase hourglass(
       const auto squeezed = [&](const TestedModel& b, Real poisson, std::array<Index, 2> cells, Real& force) {
         CaseSetup s{.body = mesh::rectangle({.cells = cells}), .young = 1000, .poisson = poisson};
         s.driven = {held("bottom", 0), held("bottom", 1), held("top", 0), {"top", 1, [](Real t) { return -0.4 * t; }}};
-        s.marches = {steps(1, 10)};
+        s.marches = {equal_steps(1, 10)};
         const CaseResult p = completes(c, b, s, [&](const ConvergedState& m) { force = m.reaction("top", 1); });
         Real largest = 0;
         for (const auto& cell : s.body.cells)
@@ -97,7 +97,7 @@ const HardCase neck("elements", "a tapered bar pulled past its greatest force", 
                       s.yield = yield, s.hardening = modulus;
                       for (V& x : s.body.nodes) x[0] *= 1 - taper * (1 - x[1] / 4);
                       s.driven = {held("left", 0), held("bottom", 1), {"top", 1, [](Real t) { return 8 * t; }}};
-                      s.marches = {steps(1, 80, 1e-8)};
+                      s.marches = {equal_steps(1, 80, 1e-8)};
                       Real greatest = 0, last = 0;
                       const CaseResult p = completes(
                           c, bending_metal(), s,
@@ -150,7 +150,7 @@ const HardCase strip("elements", "a strip of one layer under a rough disc", elas
                                           .mu = mu,
                                           .normal = 1e3,
                                           .tangential = 1e2}};
-                           s.marches = {steps(1, count)};
+                           s.marches = {equal_steps(1, count)};
                            V support(0, 0);
                            const CaseResult p = completes(c, bends(), s, [&](const ConvergedState& m) {
                              support = V(m.reaction("left", 0), m.reaction("left", 1));
