@@ -31,13 +31,15 @@ class Recording : public Solver {
 };
 
 /// Newton's residuals over a run of press and drag, tolerance 1e-10 and below: e_{k+1} <= C e_k^2 from 1e-4 down to
-/// round-off. C is of the order of 1: 100 leaves room, and still refuses any linear convergence.
+/// round-off. C is of the order of 1: 100 leaves room, and still refuses any linear convergence. In a step in which
+/// nodes touch for the first time a lagged bound follows their own pressure from one linear solution to the next, and
+/// the residual falls by the factor kappa of their feedback (theory.md, eq. 5.11): there, to a fifth at least.
 template <class Friction, class Material, class Solver, class Element = MeanDilatation<Quad4>>
 void check(Real mu) {
   using M = Model<Recording<Solver>, Friction, Material, PlaneStrain, Element>;
   auto p = press_and_drag<M>(mu, 0.2, 1.0, {8, 4});
   auto march = p->march({.end = 1, .steps = 20, .tolerance = 1e-10, .detect_lag_instability = false});
-  Index pairs = 0, sliding = 0, sticking = 0;
+  Index pairs = 0, sliding = 0, sticking = 0, touching = 0;
   residuals().clear();
   for (const auto& step : march) {
     CHECK(step.residual <= 1e-10);
@@ -56,10 +58,12 @@ void check(Real mu) {
       if (e > 1e-4 || e < 1e-10) continue;
       CAPTURE(step.number);
       CAPTURE(e);
-      CHECK(next <= std::max(100 * e * e, 1e-11));
+      const bool joined = has_lag<M>() && step.contact.touching > touching;
+      CHECK(next <= std::max({100 * e * e, joined ? 0.2 * e : 0, 1e-11}));
       ++pairs;
     }
     residuals().clear();
+    touching = step.contact.touching;
   }
   CHECK(bool(march.outcome()));
   CHECK(march.report().rejected_steps == 0);

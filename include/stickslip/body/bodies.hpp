@@ -201,8 +201,8 @@ class BodiesOf {
   void connect(const IndexMap& dofs, const Matrix& matrix) {
     for_each([&](auto& body) { body.connect(dofs, matrix); });
   }
-  void extrapolate(Real share) {
-    for_each([&](auto& body) { body.extrapolate(share); });
+  void extrapolate(Real share, bool smooth) {
+    for_each([&](auto& body) { body.extrapolate(share, smooth); });
   }
   void begin_iteration() {
     for_each([](auto& body) { body.begin_iteration(); });

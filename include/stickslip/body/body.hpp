@@ -94,7 +94,12 @@ class BodyOf {
 
   /// Begins an iteration: the condensed unknowns' values of the converged state become unknowns of their own.
   void begin_iteration() { condensed_.begin(); }
-  void extrapolate(Real share) { condensed_.extrapolate(share); }
+  /// Adds `share` of the last converged increment to the condensed unknowns, in an iteration that begins with
+  /// displacements extrapolated in this way. A single dilatation follows from the displacements at once and goes along
+  /// only on a `smooth` path.
+  void extrapolate(Real share, bool smooth) {
+    if (smooth || condensed_unknowns < Element >> 1) condensed_.extrapolate(share);
+  }
   /// Predicts the condensed unknowns after the change du of the displacements, with a fraction of their constraint
   /// residuals closed.
   void predict(const Field& du, Real fraction) {

@@ -414,8 +414,8 @@ class System<Model>::Iterate {
     for_each_friction(system_.pairs_, [&](auto& pair) { pair.retry(sticking); });
   }
   System& system() { return system_; }
-  /// Adds `share` of the last converged increment to the bodies' condensed unknowns.
-  void extrapolate(Real share) { system_.bodies_.extrapolate(share); }
+  /// Adds `share` of the last converged increment to the bodies' condensed unknowns. Inertia keeps their paths smooth.
+  void extrapolate(Real share) { system_.bodies_.extrapolate(share, has_inertia<Model>); }
 
   /// Evaluates the system at the displacements u and the condensed unknowns: the residual is the one to first order
   /// after their constraints are closed (theory.md, eq. 6.11), its norm the largest of those with the constraints
