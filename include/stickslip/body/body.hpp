@@ -116,7 +116,7 @@ class BodyOf {
     for (Index e = 0; e < mesh_.cell_count(); ++e) {
       const auto k = static_cast<std::size_t>(e);
       const Relation relation = ev.constraint_force ? Relation::open : Relation::closed;
-      const FailureCause cause = evaluate_cell(k, gather(ev.u, e), ev.dt, relation, ev.want);
+      const FailureCause cause = evaluate_cell(k, gather(ev.u, e), ev.dt, relation, ev.want, ev.probe);
       if (cause != FailureCause::none) return {cause, {Location::Kind::element, first_cell_ + e}};
       if (ev.driven) {
         const Vec<Real, dofs> increment = gather(*ev.driven, e);
@@ -174,9 +174,14 @@ class BodyOf {
   using Geometry = typename Element::template Geometry<Kinematics>;
 
   FailureCause evaluate_cell(std::size_t k, const Vec<Real, dofs>& local, Real dt, [[maybe_unused]] Relation relation,
-                             Want want) {
+                             Want want, [[maybe_unused]] bool probe) {
     const auto& states = memory_.converged(k);
     if constexpr (condensed) {
+      if (probe) {
+        auto apart = condensed_[k];
+        apart.value = condensed_.converged(k);
+        return evaluate_element<Element>(geometry_[k], material_, local, states, dt, result_, want, apart, relation);
+      }
       if (relation == Relation::closed) condensed_.begin(k);
       return evaluate_element<Element>(geometry_[k], material_, local, states, dt, result_, want, condensed_[k],
                                        relation);
