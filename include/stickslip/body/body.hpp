@@ -93,7 +93,10 @@ class BodyOf {
   }
 
   /// Begins an iteration: the condensed unknowns' values of the converged state become unknowns of their own.
-  void begin_iteration() { condensed_.begin(); }
+  void begin_iteration() {
+    condensed_.begin();
+    iterated_ = true;
+  }
   /// Adds `share` of the last converged increment to the condensed unknowns, in an iteration that begins with
   /// displacements extrapolated in this way. A single dilatation follows from the displacements at once and goes along
   /// only on a `smooth` path.
@@ -116,7 +119,7 @@ class BodyOf {
     for (Index e = 0; e < mesh_.cell_count(); ++e) {
       const auto k = static_cast<std::size_t>(e);
       const Relation relation = ev.constraint_force ? Relation::open : Relation::closed;
-      const FailureCause cause = evaluate_cell(k, gather(ev.u, e), ev.dt, relation, ev.want, ev.probe);
+      const FailureCause cause = evaluate_cell(k, gather(ev.u, e), ev.dt, relation, ev.want);
       if (cause != FailureCause::none) return {cause, {Location::Kind::element, first_cell_ + e}};
       if (ev.driven) {
         const Vec<Real, dofs> increment = gather(*ev.driven, e);
@@ -138,6 +141,7 @@ class BodyOf {
   void commit() {
     memory_.commit();
     condensed_.commit();
+    iterated_ = false;
   }
 
   /// Calls visit(cell, point, F, state, weight) for the converged memory: F as the material sees it, weight the
@@ -174,10 +178,11 @@ class BodyOf {
   using Geometry = typename Element::template Geometry<Kinematics>;
 
   FailureCause evaluate_cell(std::size_t k, const Vec<Real, dofs>& local, Real dt, [[maybe_unused]] Relation relation,
-                             Want want, [[maybe_unused]] bool probe) {
+                             Want want) {
     const auto& states = memory_.converged(k);
     if constexpr (condensed) {
-      if (probe) {
+      // An iteration's values have more digits than those of the displacements, and are kept.
+      if (relation == Relation::closed && iterated_) {
         auto apart = condensed_[k];
         apart.value = condensed_.converged(k);
         return evaluate_element<Element>(geometry_[k], material_, local, states, dt, result_, want, apart, relation);
@@ -231,6 +236,7 @@ class BodyOf {
   std::vector<Geometry> geometry_;
   [[no_unique_address]] Memory memory_;
   [[no_unique_address]] Condensed condensed_;
+  bool iterated_ = false;  // since the last commit
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dofs))>> slots_;
   ElementResult<Real, dofs, Element::points, State> result_;
 };

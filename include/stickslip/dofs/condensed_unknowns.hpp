@@ -52,11 +52,10 @@ class CondensedUnknowns {
   /// Predicts the value after the change du of its displacements, with a fraction of its constraint residual closed.
   void predict(std::size_t k, const Vec<Real, n>& du, Real fraction) {
     start_[k] = now_[k].value;
-    const Vec<Real, m> slope = transposed_product(now_[k].gradient, du);
     if constexpr (m == 1)
-      step_[k] = fraction * now_[k].residual + slope[0];
+      step_[k] = fraction * now_[k].residual + now_[k].gradient.dot(du);
     else
-      step_[k] = fraction * now_[k].residual + slope;
+      step_[k] = fraction * now_[k].residual + Vec<Real, m>(transposed_product(now_[k].gradient, du));
   }
   /// The value at the full length of the last `predict`.
   Value predicted(std::size_t k) const { return start_[k] + step_[k]; }

@@ -18,7 +18,6 @@ struct Evaluation {
   Field* constraint_force = nullptr;  ///< within an iteration, at the condensed unknowns: takes their constraint forces
   Matrix& matrix;
   Couplings_& couplings;  ///< of sliding nodes, where they are stored apart from the matrix
-  bool probe = false;     ///< outside the iteration, which goes on: it leaves the condensed unknowns as they are
 };
 
 }  // namespace stickslip

@@ -302,7 +302,7 @@ class System : detail::Balance {
     has_tangent_ = evaluated_ = false;
     forces_.internal.setZero();
     matrix_.set_zero();
-    return bodies_.evaluate(EvaluationType{u, 0, 0, Want::tangent, nullptr, false, nullptr, matrix_, couplings_, true},
+    return bodies_.evaluate(EvaluationType{u, 0, 0, Want::tangent, nullptr, false, nullptr, matrix_, couplings_},
                             forces_.internal);
   }
   Failure evaluate(const EvaluationType& ev) {
