@@ -24,7 +24,7 @@ ELEMENTS = {"mean-dilatation": ("#d62728", 7), "assumed-strain": ("#1f77b4", 5)}
 # which forces are compared. Equal steps, which end at these travels; the tube is compared by its mean force.
 SCENES = {
     "punch": {"program": "osu_punch", "options": ["--mu", "0.15"], "steps": 200, "meshes": [1, 2, 4, 8], "reference": 12, "travels": [2, 10, 25, 40]},
-    "tube": {"program": "shock_absorber", "options": ["--mu", "0.15"], "steps": 640, "meshes": [1, 2], "reference": 4, "travels": []},
+    "tube": {"program": "shock_absorber", "options": ["--mu", "0.15"], "steps": "auto", "meshes": [1, 2], "reference": 3, "travels": []},
 }
 
 
@@ -123,7 +123,7 @@ def main():
     parts = []
     for name in arguments.scenes:
         text, points = scene_part(arguments.build / "examples", name, SCENES[name], arguments.repeats)
-        parts.append(f"{name[0].upper() + name[1:]}, exact Coulomb friction, {SCENES[name]['steps']} equal steps\n\n{text}")
+        parts.append(f"{name[0].upper() + name[1:]}, exact Coulomb friction, {SCENES[name]['steps']} steps\n\n{text}")
         if name == "punch":
             draw(arguments.out, points, ["2 mm", "25 mm"], "elements.png")
     bent = subprocess.run([arguments.build / "bench" / "bench_bending"], capture_output=True, text=True, check=True).stdout
