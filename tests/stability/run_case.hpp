@@ -94,8 +94,8 @@ const std::vector<TestedModel>& sheets();  ///< J2, power hardening, axisymmetri
 const std::vector<TestedModel>& moving();  ///< elastic with inertia: laws
 /// AssumedStrain, Quasi-Coulomb, plane strain: elastic, and J2 with linear hardening.
 const TestedModel &bends(), &bending_metal();
-const TestedModel& ringing();              ///< frictionless, elastic with inertia, multipliers
-const TestedModel& tube();                 ///< J2, axisymmetric with inertia
+const TestedModel& ringing();  ///< frictionless, elastic with inertia, multipliers
+const TestedModel& tube();     ///< J2, axisymmetric with inertia
 
 namespace space {
 using V = Vec<Real, 3>;
@@ -129,6 +129,20 @@ CaseResultOf<dim> completes(Case& c, const TestedModelOf<dim>& model, const Case
   take(c, result, limit);
   for (const Outcome& outcome : result.outcomes) c.require(bool(outcome), model.name + ": " + outcome.message());
   return result;
+}
+
+/// A body of height 2 whose last drive presses its top is pressed through itself: refused at an element, as far as it
+/// goes.
+template <int dim>
+void refused_when_inverted(Case& c, const TestedModelOf<dim>& model, CaseSetupOf<dim> setup) {
+  setup.driven.back().value = [](Real t) { return -2.2 * t; };
+  setup.marches = {{.end = 1, .steps = 20, .smallest = 1e-4}};
+  const CaseResultOf<dim> p = model.run_case(setup, {});
+  take(c, p, 1e-2);
+  c.refused_for(p.outcome().failure.cause,
+                {FailureCause::element_inverted, FailureCause::not_converged, FailureCause::stalled},
+                p.outcome().message());
+  c.require(p.time > 0.8 && p.time < 2 / 2.2, "as far as it goes");
 }
 
 inline SideValue held(const char* side, Index component) {
