@@ -30,7 +30,7 @@ auto node(const SurfacePoint<S, 2>& at, double slipped) {
   if constexpr (requires { law.mu; }) law.mu = 0.15;
   const Penalty penalty{.normal = 1e5, .tangential = 1e4};
   return contact_node<S, 2>(penalty, law, Friction{}, 1.0, at, Vec<S, 1>(S(slipped)), old,
-                            penalty_pressure(penalty, 1.0, at, old), 0);
+                            penalty_pressure(penalty, 1.0, at.gap, old), 0);
 }
 
 template <class Friction>

@@ -86,7 +86,7 @@ class March : public RunState {
     std::string detail{};
   };
   void advance();
-  Attempt attempt(Iterate& iterate, Field& u, Real time, Real dt);
+  Attempt attempt(Iterate& iterate, Field& u, Real time, Real dt, bool extrapolated, Failure unsound);
   Reason doubt(Iterate& iterate, const Field& u, const StepReport& step, const NewtonReport& newton);
   Reason explain(Failure failure, Real time, Real dt);
   Index iterate_outer(Iterate& iterate, Field& u, Real time, Real dt, NewtonReport& newton);
@@ -327,16 +327,16 @@ template <class Model>
   problem_.system_->timings = now_.report.timings;
 }
 
-/// Solves for the step that ends at `time`, and checks its path and its friction.
+/// Solves for the step that ends at `time` from the guess u, and checks its path and its friction.
 template <class Model>
-typename March<Model>::Attempt March<Model>::attempt(Iterate& iterate, Field& u, Real time, Real dt) {
+typename March<Model>::Attempt March<Model>::attempt(Iterate& iterate, Field& u, Real time, Real dt, bool extrapolated,
+                                                     Failure unsound) {
   System<Mechanical>& system = *problem_.system_;
   Attempt a;
   NewtonReport& newton = a.newton;
   newton_.known_scale = now_.largest_force;
   newton_.judge_anew();
-  const bool extrapolated = problem_.extrapolate(dt, u);
-  newton.failure = system.prescribed().apply_constraints(time, u);
+  newton.failure = unsound;
   if (!newton.failure) {
     const Stopwatch watch(system.timings.contact);
     newton.failure =
@@ -455,10 +455,12 @@ void March<Model>::advance() {
     const Real time = now_.control.next();
     const Real dt = time - problem_.time_;
     Failure failure;
-    system.update(problem_.u_, problem_.time_);
+    const bool extrapolated = problem_.extrapolate(dt, u);
+    Failure unsound = system.prescribed().apply_constraints(time, u);
+    system.update(problem_.u_, problem_.time_, unsound ? problem_.u_ : u);
     {
       Iterate iterate(system);
-      const Attempt tried = attempt(iterate, u, time, dt);
+      const Attempt tried = attempt(iterate, u, time, dt, extrapolated, unsound);
       const NewtonReport& newton = tried.newton;
       failure = newton.failure;
       count_attempt(tried.outer_iterations, newton.iterations, newton_.counts, system.timings);

@@ -22,6 +22,15 @@ template <class Model>
 class March;
 
 namespace detail {
+template <class Model>
+struct SurfaceListOf {
+  using type = Empty<SurfaceListOf>;
+};
+template <class Model>
+  requires has_surfaces<Model>
+struct SurfaceListOf<Model> {
+  using type = SurfaceContacts<Model>;
+};
 /// What a problem is made of, for a model of one body.
 template <class Model, class Tag, bool several = NamesBodies<Model>>
 struct SceneParameters {
@@ -32,6 +41,7 @@ struct SceneParameters {
   [[no_unique_address]] typename Model::TimeIntegration time_integration{};
   [[no_unique_address]] DampingOf<Model> damping{};
   [[no_unique_address]] StoredIf<has_contact<Model>, Contacts<Model>, Tag> contacts{};
+  [[no_unique_address]] typename SurfaceListOf<Model>::type surfaces{};
   [[no_unique_address]] TermsOf<Model> terms{};
 
   BodyDescriptions<Model> descriptions() && {
@@ -50,6 +60,7 @@ struct SceneParameters<Model, Tag, true> {
   [[no_unique_address]] typename Model::TimeIntegration time_integration{};
   [[no_unique_address]] DampingOf<Model> damping{};
   [[no_unique_address]] StoredIf<has_contact<Model>, Contacts<Model>, Tag> contacts{};
+  [[no_unique_address]] typename SurfaceListOf<Model>::type surfaces{};
   [[no_unique_address]] TermsOf<Model> terms{};
 
   BodyDescriptions<Model> descriptions() && { return std::move(bodies); }
@@ -201,7 +212,12 @@ class Scene : public BodyScene<Bodies<Model>> {
   [[gnu::cold]] explicit Scene(Parameters parameters)
       : Base(std::move(parameters).descriptions(), validated(parameters.kinematics)),
         terms_(std::move(parameters.terms)) {
-    if constexpr (with_contact) add_contacts(parameters.contacts, pairs_);
+    if constexpr (with_contact) add_contacts(parameters.contacts, tool_pairs(pairs_));
+    if constexpr (has_surfaces<Model>)
+      for (const auto& c : parameters.surfaces) {
+        std::get<1>(pairs_).emplace_back(c, bodies_);
+        require_own_name(std::get<1>(pairs_).back());
+      }
     Index components = bodies_.node_count() * dim;
     std::apply([&](auto&... terms) { ((terms.number(components), components += terms.unknowns()), ...); }, terms_);
     if constexpr (has_inertia<Model>)
@@ -372,15 +388,24 @@ class Scene : public BodyScene<Bodies<Model>> {
     ++revision_;
   }
 
+  static auto& tool_pairs(typename System<Model>::Pairs& pairs) {
+    if constexpr (has_surfaces<Model>)
+      return std::get<0>(pairs);
+    else
+      return pairs;
+  }
+  void require_own_name(const ContactRecord<dim>& added) const requires with_contact {
+    visit_contacts([&](const auto& pair) {
+      if (&pair != &added && pair.name() == added.name())
+        throw std::invalid_argument("two contacts are called \"" + pair.name() + "\"; give them names");
+    });
+  }
   template <class Friction>
   void add_contacts(const std::vector<Contact<Model, Friction>>& contacts,
                     detail::PairList<Model, Friction>& pairs) requires with_contact {
     for (const auto& c : contacts) {
-      visit_contacts([&](const auto& pair) {
-        if (pair.name() == (c.name.empty() ? c.side : c.name))
-          throw std::invalid_argument("two contacts are called \"" + pair.name() + "\"; give them names");
-      });
       pairs.emplace_back(c, bodies_);
+      require_own_name(pairs.back());
     }
   }
   template <class... Frictions>
@@ -397,7 +422,7 @@ class Scene : public BodyScene<Bodies<Model>> {
     std::vector<bool> touches(static_cast<std::size_t>(bodies_.node_count()), false);
     if constexpr (with_contact)
       visit_contacts([&](const auto& pair) {
-        for (const Index n : pair.nodes()) touches[static_cast<std::size_t>(n)] = true;
+        pair.for_each_held(true, [&](Index n) { touches[static_cast<std::size_t>(n)] = true; });
       });
     return touches;
   }

@@ -244,7 +244,7 @@ TEST_CASE("the multiplier of the augmented Lagrangian presses through an open ga
     CHECK(now.memory.enforcement.pressure == doctest::Approx(expected).epsilon(1e-10));
     const Mat<Real, 3> by_differences =
         verify::differentiate<3, 3>(x, 1e-5, [&](const V& y) { return node.at<Real>(y, old, dt).force; });
-    CHECK(verify::relative_error(Mat<Real, 3>(now.stiffness + now.coupling), by_differences) < 1e-8);
+    CHECK(verify::relative_error(Mat<Real, 3>(now.stiffness + now.coupling()), by_differences) < 1e-8);
   }
 }
 

@@ -14,6 +14,7 @@ struct PressureSource {};
 struct Enforcement {};
 struct TimeIntegration {};
 struct Damping {};
+struct Surfaces {};
 struct LinearSolver {};
 
 }  // namespace stickslip::role

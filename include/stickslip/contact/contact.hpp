@@ -47,6 +47,31 @@ template <class Model, class Friction = typename Model::Friction>
 using Contact = ContactDescription<Model::Kinematics::dim, ToolOf<Model>, typename Model::Enforcement,
                                    typename Friction::Law, Model::Enforcement::active && Friction::active>;
 
+/// See SurfaceContacts.
+template <class Enforcement, class Law, bool with_friction>
+struct SurfaceContactDescription {
+  std::string side;     ///< the slave: named side of a body; of two bodies the softer one, of two alike the coarser
+  std::string against;  ///< the master: another side, or the same for contact with itself
+  /// Parameters of the law.
+  [[no_unique_address]] StoredIf<with_friction, Law, SurfaceContactDescription> friction{};
+  Enforcement enforcement{};  ///< parameters of the enforcement
+  Real start_depth = 0;   ///< that a node may lie inside the other body at the start [length]; its spacing is allowed
+  std::string name = "";  ///< for results; "side on against" if empty
+};
+
+namespace detail {
+template <class Model>
+struct SurfaceList {
+  using Friction = typename SurfacesOf<Model>::Friction;
+  using type =
+      std::vector<SurfaceContactDescription<typename Model::Enforcement, typename Friction::Law, Friction::active>>;
+};
+}  // namespace detail
+
+/// The contacts between surfaces of a model, as the user gives them.
+template <class Model>
+using SurfaceContacts = typename detail::SurfaceList<Model>::type;
+
 namespace detail {
 template <class Model, class Friction, template <class, class> class List>
 struct ContactLists {

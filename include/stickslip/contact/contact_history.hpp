@@ -13,22 +13,16 @@
 
 namespace stickslip {
 
-namespace detail {
-template <class Model, class Friction>
-using ContactNodesOf =
-    ContactNodes<Model::Kinematics::dim, ToolOf<Model>, ContactSkills<typename Model::Enforcement, Friction>::friction,
-                 ContactSkills<typename Model::Enforcement, Friction>::takes_area>;
-}  // namespace detail
-
 /// The history of a contact pair: the nodes' memory, their pressures as condensed unknowns, and the multipliers and
-/// slip bounds that an outer iteration starts from.
-template <class Model, class Friction_>
-class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
+/// slip bounds that an outer iteration starts from. `Nodes` says where the nodes are, against a tool (ContactNodes) or
+/// against another surface (SurfaceNodes).
+template <class Enforcement_, class Friction_, class Nodes>
+class ContactHistory : public Nodes {
  public:
   using Friction = Friction_;
-  using Enforcement = typename Model::Enforcement;
+  using Enforcement = Enforcement_;
   using Skills = ContactSkills<Enforcement, Friction>;
-  static constexpr int dim = Model::Kinematics::dim;
+  static constexpr int dim = Nodes::dim;
   using Memory = NodeMemory<Real, dim, Enforcement, Friction>;
   static constexpr bool with_friction = Skills::friction;
   static constexpr bool takes_area = Skills::takes_area;
@@ -55,6 +49,16 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
     reset_augmentations();
   }
 
+  /// Whether the penalties are in parts of the body's stiffness, and whether that is still to be told.
+  bool in_parts_of_stiffness() const { return enforcement_.per == PenaltyPer::stiffness; }
+  bool needs_stiffness() const { return in_parts_of_stiffness() && !(measures_.tributary()[0] > 0); }
+  /// Takes the penalties from the body's tangent, where they are in parts of it.
+  template <class Matrix>
+  void compute_penalties(const IndexMap& dofs, const Matrix& tangent) {
+    if (in_parts_of_stiffness() && !measures_.take_stiffness(dofs, nodes_, tangent))
+      this->refuse("the body has no stiffness at any of its nodes; give the penalty another unit");
+  }
+
   /// Begins an iteration: the pressures of the converged state become unknowns of their own.
   void begin_iteration() {
     pressures_.begin();
@@ -64,7 +68,7 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
   /// Predicts the pressures after the change du of the displacements, with a fraction of their constraint residuals
   /// closed; with none of it (0) the change is a probe.
   void predict(const Field& du, Real fraction) {
-    for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_.predict(k, at_node<dim>(du, nodes_[k]), fraction);
+    for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_.predict(k, this->change_at(k, du), fraction);
     reversals_.next_search(fraction == 0);
     if (fraction != 0) start_.predict([this](std::size_t k) { return pressures_.predicted(k); }, memory_);
   }
@@ -153,7 +157,7 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
     const auto part = [this](const char* what) { return joined({"contact ", name_, ", ", what}); };
     archive.check_equal(part("side"), this->side_);
     states_.serialize(archive, part("nodes"));
-    measures_.serialize(archive, part("weights"));
+    this->serialize_measures(archive, part("weights"));
     pressures_.serialize(archive, part("pressures"));
     memory_.serialize(archive, part("memory"));
     archive(part("force"), this->force_);
@@ -166,37 +170,50 @@ class ContactHistory : public detail::ContactNodesOf<Model, Friction_> {
     Real sum = 0;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       if (!states_.converged(k).touching) continue;
-      sum += enforcement_.energy(states_.converged(k).gap, measures_.tributary()[k]);
+      sum += enforcement_.energy(states_.converged(k).gap, this->weight(k));
       if constexpr (with_friction)
         sum += 0.5 * memory_.converged(k).friction.traction.squaredNorm() / stick_stiffness(k);
     }
     return sum;
   }
 
+  /// The largest stiffness of sticking at any node; 0 without friction [force / length].
+  Real largest_stick_stiffness() const {
+    Real largest = 0;
+    for (std::size_t k = 0; with_friction && k < nodes_.size(); ++k) largest = std::max(largest, stick_stiffness(k));
+    return largest;
+  }
+  /// The larger of the stiffnesses of contact and sticking at any node [force / length].
+  Real largest_stiffness() const {
+    Real largest = largest_stick_stiffness();
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      largest = std::max(largest, enforcement_.normal_force(Real(-1), this->weight(k), {}).d_gap);
+    return largest;
+  }
+
  protected:
-  using Nodes = detail::ContactNodesOf<Model, Friction>;
   using Nodes::name_, Nodes::nodes_, Nodes::states_, Nodes::trial_summary_, Nodes::measures_;
 
-  template <class BodiesType>
-  ContactHistory(const Contact<Model, Friction>& contact, const BodiesType& bodies)
-      : Nodes(contact.name, contact.side, contact.tool, contact.motion, contact.start_depth, contact.enforcement.per,
-              bodies),
-        friction_(contact.friction),
+  // Of a description and what the nodes are made from.
+  template <class Description, class BodiesType>
+  ContactHistory(const Description& contact, const BodiesType& bodies)
+      : Nodes(contact, bodies),
         enforcement_(contact.enforcement),
         pressures_(nodes_.size()),
         memory_(nodes_.size()),
         start_(nodes_.size()),
         reversals_(nodes_.size()) {
+    if constexpr (with_friction) friction_ = contact.friction;
     if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
     if constexpr (requires { friction_.validate(); }) friction_.validate();
     if (with_friction && !(enforcement_.stick_stiffness(1) > 0))
       this->refuse("friction needs a positive tangential stiffness");
   }
-  Real stick_stiffness(std::size_t k) const { return enforcement_.stick_stiffness(measures_.tributary()[k]); }
+  Real stick_stiffness(std::size_t k) const { return enforcement_.stick_stiffness(this->weight(k)); }
 
-  [[no_unique_address]] decltype(Contact<Model, Friction>::friction) friction_;
+  [[no_unique_address]] StoredIf<with_friction, typename Friction::Law, ContactHistory> friction_;
   Enforcement enforcement_;
-  CondensedUnknowns<dim> pressures_;
+  CondensedUnknowns<Nodes::components> pressures_;
   [[no_unique_address]] History<Memory> memory_;
   [[no_unique_address]] typename Skills::template Start<Memory> start_;
   [[no_unique_address]] typename Skills::template Reversals<dim> reversals_;

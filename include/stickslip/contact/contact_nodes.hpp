@@ -19,9 +19,11 @@
 namespace stickslip {
 
 /// The nodes of a contact side against their tool, whatever the laws: where they are, and how they move over a step.
-template <int dim, class Tool, bool with_friction, bool takes_area>
-class ContactNodes : public ContactRecord<dim> {
+template <int dim_, class Tool, bool with_friction, bool takes_area>
+class ContactNodes : public ContactRecord<dim_> {
  public:
+  static constexpr int dim = dim_;
+  static constexpr int components = dim;  ///< of displacement that act on a node's gap and place
   using Point = Vec<Real, dim>;
   using Pose = rigid::Pose<dim>;
 
@@ -108,20 +110,24 @@ class ContactNodes : public ContactRecord<dim> {
   using Record::name_, Record::motion_, Record::nodes_, Record::states_, Record::trial_summary_;
 
   // Throws std::invalid_argument, naming the contact, for parameters that cannot be.
-  template <class BodiesType>
-  ContactNodes(const std::string& name, const std::string& side, const Tool& tool, const rigid::Motion<dim>& motion,
-               Real start_depth, PenaltyPer per, const BodiesType& bodies)
-      : Record(name, side, motion, bodies.side_nodes(side)),
-        tool_(tool),
+  template <class Description, class BodiesType>
+  ContactNodes(const Description& contact, const BodiesType& bodies)
+      : Record(contact.name, contact.side, contact.motion, bodies.side_nodes(contact.side)),
+        tool_(contact.tool),
         X_(bodies.positions()),
-        start_depth_(start_depth),
-        measures_(bodies.with_side(side, [&](const auto& body, const std::string& own) {
-          return NodeMeasures<dim, takes_area>(body.mesh(), body.kinematics(), own, per);
+        start_depth_(contact.start_depth),
+        measures_(bodies.with_side(contact.side, [&](const auto& body, const std::string& own) {
+          return NodeMeasures<dim, takes_area>(body.mesh(), body.kinematics(), own, contact.enforcement.per);
         })) {
     if (tool_.empty()) this->refuse("the tool has no surface");
     if (!(start_depth_ >= 0)) this->refuse("start_depth must not be negative");
   }
 
+  void serialize_measures(Archive& archive, const std::string& name) { measures_.serialize(archive, name); }
+  // Measure behind a unit of penalty at a node.
+  Real weight(std::size_t k) const { return measures_.tributary()[k]; }
+  // What of a change of the displacements acts on a node.
+  Point change_at(std::size_t k, const Field& du) const { return at_node<dim>(du, nodes_[k]); }
   // The closest points to the nodes where they are at the start. Throws std::invalid_argument where the tool has no
   // position, or nodes lie deeper inside it than their neighbours are away: the tool is the wrong way round, or ends
   // too early.

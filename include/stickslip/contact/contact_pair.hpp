@@ -15,12 +15,19 @@
 
 namespace stickslip {
 
+namespace detail {
+template <class Model, class Friction, class Skills = ContactSkills<typename Model::Enforcement, Friction>>
+using ToolHistory =
+    ContactHistory<typename Model::Enforcement, Friction,
+                   ContactNodes<Model::Kinematics::dim, ToolOf<Model>, Skills::friction, Skills::takes_area>>;
+}  // namespace detail
+
 /// The contact term of one side of a body on one rigid tool: its stencils are the side's nodes, its kernel is
 /// contact_node.
 template <class Model, class Friction_ = typename Model::Friction>
-class ContactPair : public ContactHistory<Model, Friction_> {
+class ContactPair : public detail::ToolHistory<Model, Friction_> {
  public:
-  using Base = ContactHistory<Model, Friction_>;
+  using Base = detail::ToolHistory<Model, Friction_>;
   using Base::with_friction, Base::dim;
   using typename Base::Friction, typename Base::Memory, typename Base::Point, typename Base::Pose;
   static_assert(RigidTool<ToolOf<Model>, dim>,
@@ -35,6 +42,17 @@ class ContactPair : public ContactHistory<Model, Friction_> {
   ContactPair(const ContactPair&) = delete;
   ContactPair& operator=(const ContactPair&) = delete;
 
+  /// Its stencils are of single nodes, which the bodies couple, and stay.
+  static constexpr bool update(const Field&, const Field&) { return false; }
+  static void couple(SparsityPattern&) {}
+  /// Entries of its couplings at most.
+  std::size_t coupling_entries() const { return nodes_.size() * static_cast<std::size_t>(dim); }
+  /// Calls visit(node) for the nodes that touch; with `ever` for all.
+  template <class Visit>
+  void for_each_held(bool ever, Visit&& visit) const {
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (ever || this->touches(k)) visit(nodes_[k]);
+  }
   /// Makes the scatter maps into a matrix.
   void connect(const IndexMap& dofs, const Matrix& matrix) {
     slots_.clear();
@@ -47,15 +65,6 @@ class ContactPair : public ContactHistory<Model, Friction_> {
       }
     }
   }
-  /// Whether the penalties are in parts of the body's stiffness, and whether that is still to be told.
-  bool in_parts_of_stiffness() const { return enforcement_.per == PenaltyPer::stiffness; }
-  bool needs_stiffness() const { return in_parts_of_stiffness() && !(measures_.tributary()[0] > 0); }
-  /// Takes the penalties from the body's tangent, where they are in parts of it.
-  void compute_penalties(const IndexMap& dofs, const Matrix& tangent) {
-    if (in_parts_of_stiffness() && !measures_.take_stiffness(dofs, nodes_, tangent))
-      this->refuse("the body has no stiffness at any of its nodes; give the penalty another unit");
-  }
-
   /// Adds contact forces and their tangent.
   template <class Evaluation>
   Failure evaluate(const Evaluation& ev, Field& forces) {
@@ -81,20 +90,6 @@ class ContactPair : public ContactHistory<Model, Friction_> {
         square += std::pow(std::min(pressures_[k].gradient.norm(), share * softest) * gap_roundoff_[k], 2);
     return square;
   }
-  /// The largest stiffness of sticking at any node; 0 without friction [force / length].
-  Real largest_stick_stiffness() const {
-    Real largest = 0;
-    for (std::size_t k = 0; with_friction && k < nodes_.size(); ++k)
-      largest = std::max(largest, this->stick_stiffness(k));
-    return largest;
-  }
-  /// The larger of the stiffnesses of contact and sticking at any node [force / length].
-  Real largest_stiffness() const {
-    Real largest = largest_stick_stiffness();
-    for (const Real w : measures_.tributary())
-      largest = std::max(largest, enforcement_.normal_force(Real(-1), w, {}).d_gap);
-    return largest;
-  }
 
  private:
   using Base::motion_, Base::nodes_, Base::states_, Base::trial_summary_, Base::measures_, Base::enforcement_,
@@ -118,7 +113,7 @@ class ContactPair : public ContactHistory<Model, Friction_> {
     if (!std::isfinite(at.gap)) return FailureCause::not_finite;
     const bool iterating = ev.constraint_force != nullptr;
     Memory old = start_.at(k, memory_);
-    const Real penalty = penalty_pressure(enforcement_, measures_.tributary()[k], at, old);
+    const Real penalty = penalty_pressure(enforcement_, measures_.tributary()[k], at.gap, old);
     const Real pressure = iterating ? pressures_[k].value : penalty;
     Vec<Real, surface_coordinates<dim>> slip = Vec<Real, surface_coordinates<dim>>::Zero();
     bool followed = false;
@@ -165,7 +160,7 @@ class ContactPair : public ContactHistory<Model, Friction_> {
                         const Node& node, const Point& force, Field& forces) {
     const Index n = nodes_[k];
     Block whole = node.stiffness;
-    add(whole, node.coupling);
+    add(whole, node.coupling());
     if (ev.want == Want::frictionless_tangent)
       whole = scaled(product_transposed(at.normal, at.normal), at.normal.dot(product(whole, at.normal)));
     whole = turned(pose, whole);
@@ -185,9 +180,11 @@ class ContactPair : public ContactHistory<Model, Friction_> {
     if (ev.constraint_force)  // before contact is added to it
       body_stiffness_[k] = ev.matrix.template largest_diagonal<dim>(slots_[k]);
     if constexpr (stores_couplings<Model>) {
-      const Block symmetric = ev.want == Want::frictionless_tangent ? whole : turned(pose, node.stiffness);
-      ev.matrix.add(slots_[k], symmetric);
-      if (node.sliding) ev.couplings.add(equations_[k], minus(whole, symmetric));
+      const bool smooth = ev.want == Want::frictionless_tangent;
+      ev.matrix.add(slots_[k], smooth ? whole : turned(pose, node.stiffness));
+      if (node.sliding && !smooth)
+        ev.couplings.add(equations_[k], product(pose.rotation, node.friction_by_pressure),
+                         product(pose.rotation, node.pressure.gradient));
     } else {
       ev.matrix.add(slots_[k], whole);
     }
@@ -213,8 +210,21 @@ template <class Model, class Friction>
 using PairList = std::list<ContactPair<Model, Friction>>;
 }  // namespace detail
 
-/// The pairs that the contacts of a model become.
+namespace detail {
+template <class Model, class ToolPairs, class Surfaces>
+struct AllPairs {
+  using type = std::tuple<ToolPairs, std::list<typename Surfaces::template Pair<Model>>>;
+};
+template <class Model, class ToolPairs>
+struct AllPairs<Model, ToolPairs, NoSurfaceContact> {
+  using type = ToolPairs;
+};
 template <class Model>
-using ContactPairs = typename detail::ContactLists<Model, typename Model::Friction, detail::PairList>::type;
+using ToolPairs = typename ContactLists<Model, typename Model::Friction, PairList>::type;
+}  // namespace detail
+
+/// The pairs that the contacts of a model become: those on tools, and those between surfaces where it has them.
+template <class Model>
+using ContactPairs = typename detail::AllPairs<Model, detail::ToolPairs<Model>, SurfacesOf<Model>>::type;
 
 }  // namespace stickslip

@@ -13,8 +13,8 @@ namespace stickslip {
 /// Where the friction of a step ends: on the predictor, or back on the bound.
 template <class S, int m>
 struct FrictionReturn {
-  Vec<S, m> traction;                        ///< t_F [force]
-  Mat<S, m> d_surface;                       ///< d traction / d place [force / length]
+  Vec<S, m> traction = Vec<S, m>::Zero();    ///< t_F [force]
+  Mat<S, m> d_surface = Mat<S, m>::Zero();   ///< d traction / d place [force / length]
   Vec<S, m> d_pressure = Vec<S, m>::Zero();  ///< d traction / d felt pressure [-]
   S slip_increment = S(0);                   ///< lambda, slid distance of the step [length]
   S bound = S(0);                            ///< at the end of the slide [force]

@@ -1,74 +1,23 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <stickslip/base/outcome.hpp>
-#include <stickslip/base/stored_if.hpp>
-#include <stickslip/contact/friction_return.hpp>
-#include <stickslip/geometry/surface_point.hpp>
+#include <stickslip/contact/contact_law.hpp>
 #include <stickslip/policy/condensed_unknown.hpp>
-#include <stickslip/policy/enforcement.hpp>
-#include <stickslip/policy/friction.hpp>
-#include <stickslip/tensor/products.hpp>
 
 namespace stickslip {
-
-/// What a node in frictional contact remembers; of the pressure only if the bound depends on it.
-template <class S, int dim, class Friction>
-struct FrictionMemory {
-  using Pressure =
-      StoredIf<Friction::Law::depends_on_pressure, typename Friction::Pressure::template Memory<S>, Friction>;
-
-  static constexpr int places = surface_coordinates<dim>;
-
-  Vec<S, places> traction = Vec<S, places>::Zero();            ///< t_F, work conjugate to the place on the tool [force]
-  Vec<S, places> surface_coordinate = Vec<S, places>::Zero();  ///< of the closest point, in the tool's frame [length]
-  S accumulated_slip = S(0);                                   ///< slid distance so far [length]
-  [[no_unique_address]] Pressure pressure{};
-
-  template <class Self, class Visit>
-  static constexpr void members(Self& self, Visit&& visit) {
-    visit("traction", self.traction);
-    visit("surface_coordinate", self.surface_coordinate);
-    visit("accumulated_slip", self.accumulated_slip);
-    visit("pressure", self.pressure);
-  }
-};
-
-namespace detail {
-template <class S, int dim, class Friction, bool active = Friction::active>
-struct FrictionMemoryOf {
-  using type = FrictionMemory<S, dim, Friction>;
-};
-template <class S, int dim, class Friction>
-struct FrictionMemoryOf<S, dim, Friction, false> {
-  using type = Empty<Friction>;
-};
-}  // namespace detail
-
-/// What a contact node remembers: the friction's memory and the enforcement's, each only where there is one.
-template <class S, int dim, class Enforcement, class Friction>
-struct NodeMemory {
-  [[no_unique_address]] typename detail::FrictionMemoryOf<S, dim, Friction>::type friction{};
-  [[no_unique_address]] typename Enforcement::template Memory<S> enforcement{};
-
-  template <class Self, class Visit>
-  static constexpr void members(Self& self, Visit&& visit) {
-    visit("friction", self.friction);
-    visit("enforcement", self.enforcement);
-  }
-};
 
 /// What a contact node contributes.
 template <class S, int dim, class Memory>
 struct NodeContact {
   Vec<S, dim> force = Vec<S, dim>::Zero();      ///< R_C + R_F: the node's force on the tool [force]
   Mat<S, dim> stiffness = Mat<S, dim>::Zero();  ///< its derivative by the node's position, but for the coupling
-  Mat<S, dim> coupling = Mat<S, dim>::Zero();   ///< the rest: friction that follows the pressure (eq. 5.9)
-  CondensedUnknown<S, dim> pressure{};          ///< -t_N [force]
-  S bound = S(0);                               ///< largest friction force at the current pressure [force]
-  S lag = S(0);                                 ///< bound at the current pressure less the bound that was used [force]
-  S dissipated = S(0);                          ///< work of friction in this step [energy]
-  S lag_work = S(0);                            ///< work that friction would do besides at the current bound [energy]
+  /// Derivative of the friction force by the pressure that it follows, where that is not symmetrised: see coupling [-].
+  Vec<S, dim> friction_by_pressure = Vec<S, dim>::Zero();
+  CondensedUnknown<S, dim> pressure{};  ///< -t_N [force]
+  S bound = S(0);                       ///< largest friction force at the current pressure [force]
+  S lag = S(0);                         ///< bound at the current pressure less the bound that was used [force]
+  S dissipated = S(0);                  ///< work of friction in this step [energy]
+  S lag_work = S(0);                    ///< work that friction would do besides at the current bound [energy]
   Vec<S, surface_coordinates<dim>> friction_force =
       Vec<S, surface_coordinates<dim>>::Zero();  ///< where to: the friction force then
   Vec<S, dim> stick_force =
@@ -77,14 +26,10 @@ struct NodeContact {
   bool touching = false;
   bool sliding = false;
   Memory memory{};
-};
 
-/// The pressure that a gap asks for: -t_N where that presses [force].
-template <class S, int dim, class Enforcement, class Memory>
-S penalty_pressure(const Enforcement& enforcement, Real weight, const SurfacePoint<S, dim>& at, const Memory& old) {
-  const S pressure = -enforcement.normal_force(at.gap, weight, old.enforcement).value;
-  return value_of(pressure) > 0 ? pressure : S(0);
-}
+  /// What `stiffness` lacks to the whole: friction that follows the pressure, a dyad (eq. 5.9).
+  Mat<S, dim> coupling() const { return product_transposed(friction_by_pressure, pressure.gradient); }
+};
 
 /// Turns a friction force that has followed a curved surface back into its tangent plane, its magnitude kept; the arc
 /// length of the plane needs none of that (theory.md, eq. 4.15).
@@ -100,82 +45,54 @@ Vec<S, surface_coordinates<dim>> along_surface(const Vec<S, surface_coordinates<
   }
 }
 
-/// Normal contact and friction of one node, in the tool's frame (theory.md, eq. 4.4-4.6, 5.1-5.9 and 6.11). `slipped`
-/// is the change of the place on the tool since the converged state, `pressure` the one that the iteration has; a node
-/// touches while it is positive, or once the gap asks for one. `area` is the reference area that the node carries,
-/// looked at only by a law that asks for it. A sliding node that is `held` is linearised as one that sticks.
+/// Normal contact and friction of one node, in the tool's frame: contact_law at the closest point `at`. `slipped` is
+/// the change of the place on the tool since the converged state.
 template <class S, int dim, class Enforcement, class Law, class Friction>
 NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
-    const Enforcement& enforcement, const Law& law, Friction, Real weight, const SurfacePoint<S, dim>& at,
+    const Enforcement& enforcement, const Law& law, Friction friction, Real weight, const SurfacePoint<S, dim>& at,
     const Vec<S, surface_coordinates<dim>>& slipped, const NodeMemory<S, dim, Enforcement, Friction>& old,
     const S& pressure, Real dt, [[maybe_unused]] Real area = 0, [[maybe_unused]] bool held = false) {
+  constexpr int m = surface_coordinates<dim>;
   NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> out;
-  const NormalForce<S> normal = enforcement.normal_force(at.gap, weight, old.enforcement);
-  out.touching = value_of(normal.value) <= 0 || value_of(pressure) > 0;
-  if constexpr (Friction::active) {
-    out.memory.friction.surface_coordinate = at.surface_coordinate;
-    out.memory.friction.accumulated_slip = old.friction.accumulated_slip;
-  }
+  const auto node =
+      contact_law<S, m>(enforcement, law, friction, weight, at.gap, slipped, old, pressure, dt, area, held);
+  out.touching = node.touching;
+  out.memory = node.memory;
+  if constexpr (Friction::active) out.memory.friction.surface_coordinate = at.surface_coordinate;
   if (!out.touching) return out;
 
-  const S now = value_of(pressure) > 0 ? pressure : S(0);
+  const S now = node.pressure;
   Vec<S, dim> by_pressure = scaled(at.normal, S(-1));  // d force / d pressure
   out.force = scaled(by_pressure, now);
   for (int j = 0; j < dim; ++j)
     for (int i = 0; i < dim; ++i)
-      out.stiffness(i, j) = at.normal[i] * at.normal[j] * normal.d_gap - at.hess_gap(i, j) * now;
+      out.stiffness(i, j) = at.normal[i] * at.normal[j] * node.d_gap - at.hess_gap(i, j) * now;
 
   if constexpr (Friction::active) {
     using Pressure = typename Friction::Pressure;
-    constexpr int m = surface_coordinates<dim>;
     constexpr bool follows_pressure = Law::depends_on_pressure && Pressure::follows_current;
-    const S stiffness = S(enforcement.stick_stiffness(weight));
-    S bound_pressure = now;
-    if constexpr (Law::depends_on_pressure) bound_pressure = Pressure::pressure(now, old.friction.pressure, dt);
-    const auto bound_at = [&](const S& normal_force, const S& slide) {
-      return bound_after(law, normal_force, old.friction.accumulated_slip, slide, area, dt);
-    };
-    Vec<S, m> trial = old.friction.traction;
-    add(trial, slipped, stiffness);
-    FrictionReturn<S, m> end;
-    if constexpr (is_anisotropic<Law>)
-      end = elliptic_return<S>(trial, stiffness, law.metric(), bound_at(bound_pressure, S(0)));
-    else
-      end = radial_return<Law, S, m>(trial, stiffness, [&](const S& slide) { return bound_at(bound_pressure, slide); });
-    out.cause = end.cause;
-    out.sliding = end.sliding;
-    out.memory.friction.accumulated_slip = old.friction.accumulated_slip + end.slip_increment;
-    out.dissipated = end.bound * end.slip_increment;
-    if (end.sliding) out.friction_force = end.traction;
-    if (end.sliding && held) {
-      out.stick_force = product(at.grad_surface, minus(trial, end.traction));
-      end.d_surface = isotropic<m>(stiffness);
-      end.d_pressure.setZero();
-    }
+    const FrictionReturn<S, m>& end = node.friction;
+    out.cause = node.cause;
+    out.sliding = node.sliding;
+    out.dissipated = node.dissipated;
+    out.bound = node.bound;
+    out.lag = node.lag;
+    out.lag_work = node.lag_work;
+    if (node.sliding) out.friction_force = end.traction;
+    if (node.sliding && held) out.stick_force = product(at.grad_surface, node.to_stick);
     add(out.force, product(at.grad_surface, end.traction));
     add(out.stiffness, product_transposed(product(at.grad_surface, end.d_surface), at.grad_surface));
     for (int k = 0; k < m; ++k) add(out.stiffness, at.hess_surface[static_cast<std::size_t>(k)], end.traction[k]);
     if constexpr (follows_pressure) {
       const Vec<S, dim> of_friction = product(at.grad_surface, end.d_pressure);
       add(by_pressure, of_friction);
-      if constexpr (!is_symmetrised<Pressure>())
-        out.coupling = product_transposed(of_friction, scaled(at.normal, S(-normal.d_gap)));
-    }
-
-    out.bound = end.bound;
-    if constexpr (Law::depends_on_pressure && !Pressure::follows_current) {
-      out.bound = bound_at(now, end.slip_increment).value;
-      out.lag = out.bound - end.bound;
-      out.lag_work = out.lag * end.slip_increment;
+      if constexpr (!is_symmetrised<Pressure>()) out.friction_by_pressure = of_friction;
     }
     out.memory.friction.traction = along_surface<S, dim>(end.traction, at.normal);
-    if constexpr (Law::depends_on_pressure)
-      out.memory.friction.pressure = Pressure::advance(now, old.friction.pressure, dt);
   }
-  if constexpr (is_augmented<Enforcement>) out.memory.enforcement = enforcement.augmented(now);
   out.pressure.value = now;
-  out.pressure.residual = -normal.value - now;
-  out.pressure.gradient = scaled(at.normal, S(-normal.d_gap));
+  out.pressure.residual = node.pressure_residual;
+  out.pressure.gradient = scaled(at.normal, S(-node.d_gap));
   out.pressure.force = scaled(by_pressure, out.pressure.residual);
   return out;
 }

@@ -3,47 +3,55 @@
 
 #include <stickslip/policy/linear_solver.hpp>
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
 namespace stickslip {
 
 /// The couplings of sliding nodes, where they are kept apart from the matrix (stores_couplings).
-template <int dim>
 class NodeCouplings {
  public:
-  void reserve(std::size_t nodes) {
-    equations_.reserve(nodes);
-    blocks_.reserve(nodes);
+  /// Makes room for as many dyads of as many entries in all.
+  void reserve(std::size_t dyads, std::size_t entries) {
+    start_.reserve(dyads + 1);
+    equations_.reserve(entries);
+    left_.reserve(entries);
+    right_.reserve(entries);
   }
   void clear() {
+    start_.assign(1, 0);
     equations_.clear();
-    blocks_.clear();
+    left_.clear();
+    right_.clear();
   }
-  void add(const std::array<Index, static_cast<std::size_t>(dim)>& equations, const Mat<Real, dim>& block) {
-    equations_.push_back(equations);
-    blocks_.push_back(block);
+  /// Adds the column `left(i)` times the row `right(i)`, both over `equations`.
+  template <class Equations, class Left, class Right>
+  void add(const Equations& equations, const Left& left, const Right& right) {
+    for (std::size_t i = 0; i < equations.size(); ++i) {
+      equations_.push_back(equations[i]);
+      left_.push_back(left(static_cast<Index>(i)));
+      right_.push_back(right(static_cast<Index>(i)));
+    }
+    start_.push_back(static_cast<Index>(equations_.size()));
   }
   void scale(Real factor) {
-    for (auto& block : blocks_) block *= factor;
+    for (Real& entry : left_) entry *= factor;
   }
-  NodeBlocks view() const {
-    if (blocks_.empty()) return {};
-    return {static_cast<Index>(blocks_.size()), dim, equations_[0].data(), blocks_[0].data()};
+  Dyads view() const {
+    return {static_cast<Index>(start_.size()) - 1, start_.data(), equations_.data(), left_.data(), right_.data()};
   }
 
  private:
-  std::vector<std::array<Index, static_cast<std::size_t>(dim)>> equations_;
-  std::vector<Mat<Real, dim>> blocks_;
+  std::vector<Index> start_{0}, equations_;
+  std::vector<Real> left_, right_;
 };
 
 /// Where the matrix holds them.
 struct NoNodeCouplings {
-  void reserve(std::size_t) {}
+  void reserve(std::size_t, std::size_t) {}
   void clear() {}
   void scale(Real) {}
-  NodeBlocks view() const { return {}; }
+  Dyads view() const { return {}; }
 };
 
 }  // namespace stickslip

@@ -76,6 +76,7 @@ class SparseMatrix {
   /// Where the entry of two equations is stored, and an addition to it.
   Index entry(Index row, Index column) const { return slot(row, column); }
   void add(Index entry, Real value) { values_[static_cast<std::size_t>(entry)] += value; }
+  Real value(Index entry) const { return values_[static_cast<std::size_t>(entry)]; }
 
   void set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
 

@@ -73,19 +73,18 @@ class Corrected {
 
  private:
   void add_corrections(const Field& z, Field& w) const {
-    const NodeBlocks& c = corrections_;
+    const Dyads& c = corrections_;
     for (Index k = 0; k < c.count; ++k) {
-      const Index* equation = c.equation + k * c.size;
-      const Real* block = c.values + k * c.size * c.size;
-      for (Index j = 0; j < c.size; ++j)
-        if (equation[j] >= 0)
-          for (Index i = 0; i < c.size; ++i)
-            if (equation[i] >= 0) w[equation[i]] += block[j * c.size + i] * z[equation[j]];
+      Real along = 0;
+      for (Index i = c.start[k]; i < c.start[k + 1]; ++i)
+        if (c.equation[i] >= 0) along += c.right[i] * z[c.equation[i]];
+      for (Index i = c.start[k]; i < c.start[k + 1]; ++i)
+        if (c.equation[i] >= 0) w[c.equation[i]] += c.left[i] * along;
     }
   }
 
   Symmetric solver_;
-  NodeBlocks corrections_{};
+  Dyads corrections_{};
   Index size_ = 0, inner_iterations_ = 0;
   Orthodir<> krylov_;
 };

@@ -9,13 +9,14 @@
 
 namespace stickslip {
 
-/// Small blocks that a symmetric matrix lacks to the whole: the couplings of sliding nodes. Block k is square, of
-/// `size` rows, in columns; its rows and columns belong to equation[k * size + i], negative where that is constrained.
-struct NodeBlocks {
+/// Dyads that a symmetric matrix lacks to the whole: the couplings of sliding nodes. Dyad k is the column `left` times
+/// the row `right`, whose entries start[k] to start[k + 1] belong to `equation`, negative where that is constrained.
+struct Dyads {
   Index count = 0;
-  Index size = 0;
+  const Index* start = nullptr;  ///< count + 1 entries
   const Index* equation = nullptr;
-  const Real* values = nullptr;
+  const Real* left = nullptr;
+  const Real* right = nullptr;
 };
 
 /// Compressed columns of a square matrix, rows ascending. A symmetric one holds its lower triangle only. `values` may
@@ -26,7 +27,7 @@ struct SparseView {
   const Index* row = nullptr;
   const Real* values = nullptr;
   Symmetry symmetry = Symmetry::general;
-  NodeBlocks corrections{};  ///< still to be added; only for solvers that say `corrects`
+  Dyads corrections{};  ///< still to be added; only for solvers that say `corrects`
 
   Index nonzeros() const { return column_start[size]; }
 };

@@ -8,6 +8,7 @@
 #include <stickslip/policy/kinematics.hpp>
 #include <stickslip/policy/linear_solver.hpp>
 #include <stickslip/policy/material.hpp>
+#include <stickslip/policy/surfaces.hpp>
 #include <stickslip/policy/time_integration.hpp>
 
 #include <tuple>
@@ -103,15 +104,60 @@ using TermsOf = typename detail::TermTuple<typename detail::TermTypesIn<Model>::
 template <class Model>
 inline constexpr bool has_contact = Model::Enforcement::active;
 
+namespace detail {
+template <class Model>
+struct SurfacesNamedBy {
+  using type = NoSurfaceContact;
+};
+template <class Model>
+  requires requires {
+    typename Model::Surfaces;
+  }
+struct SurfacesNamedBy<Model> {
+  using type = typename Model::Surfaces;
+};
+}  // namespace detail
+
+/// The contact between surfaces of bodies in the model: `NoSurfaceContact` where it names none.
+template <class Model>
+using SurfacesOf = typename detail::SurfacesNamedBy<Model>::type;
+
+/// True when the bodies of the model touch each other, or themselves.
+template <class Model>
+inline constexpr bool has_surfaces = SurfacesOf<Model>::active;
+
+namespace detail {
+template <class OfTools, class Surfaces>
+struct AllFrictions {
+  using type = PerContact<OfTools, typename Surfaces::Friction>;
+};
+template <class... OfTools, class Surfaces>
+struct AllFrictions<PerContact<OfTools...>, Surfaces> {
+  using type = PerContact<OfTools..., typename Surfaces::Friction>;
+};
+template <class OfTools>
+struct AllFrictions<OfTools, NoSurfaceContact> {
+  using type = OfTools;
+};
+template <class... OfTools>
+struct AllFrictions<PerContact<OfTools...>, NoSurfaceContact> {
+  using type = PerContact<OfTools...>;
+};
+}  // namespace detail
+
+/// The friction of all contacts of a model, with tools and between surfaces.
+template <class Model>
+using FrictionsOf = typename detail::AllFrictions<typename Model::Friction, SurfacesOf<Model>>::type;
+
 /// True when the model has friction.
 template <class Model>
-inline constexpr bool has_friction = has_contact<Model>&& Model::Friction::active;
+inline constexpr bool has_friction = has_contact<Model>&& FrictionsOf<Model>::active;
 
 /// True when a step takes several outer iterations: multipliers, or a bound that is brought up to date.
 template <class Model>
 constexpr bool has_outer_iterations() {
   if constexpr (has_friction<Model>)
-    return is_augmented<typename Model::Enforcement> || friction_is_iterated<typename Model::Friction>;
+    return is_augmented<typename Model::Enforcement> || friction_is_iterated<FrictionsOf<Model>>;
   else if constexpr (has_contact<Model>)
     return is_augmented<typename Model::Enforcement>;
   else
@@ -122,7 +168,7 @@ constexpr bool has_outer_iterations() {
 template <class Model>
 constexpr bool has_lag() {
   if constexpr (has_friction<Model>)
-    return friction_lags<typename Model::Friction>;
+    return friction_lags<FrictionsOf<Model>>;
   else
     return false;
 }
@@ -131,7 +177,7 @@ constexpr bool has_lag() {
 template <class Model>
 constexpr bool has_inexact_tangent() {
   if constexpr (has_friction<Model>)
-    return friction_is_symmetrised<typename Model::Friction>;
+    return friction_is_symmetrised<FrictionsOf<Model>>;
   else
     return false;
 }
@@ -177,7 +223,7 @@ constexpr Symmetry contact_symmetry() {
   if constexpr (!has_contact<Model>)
     return Symmetry::symmetric;
   else
-    return widest(enforcement_symmetry<Model>(), friction_symmetry<typename Model::Friction>());
+    return widest(enforcement_symmetry<Model>(), friction_symmetry<FrictionsOf<Model>>());
 }
 
 /// Symmetry of the whole system: the widest over all policies.
@@ -285,11 +331,12 @@ struct ToolNameOf<Model> {
 
 /// A model but for its solver, of which only the storage of the matrix is left: what the body, the contacts and the
 /// balance are made of. Models that differ in the solver alone share it, and the compiler's work with it.
-template <class Kinematics_, class Bodies_, class Friction_, class Enforcement_, class Inertia_, class Damping_,
-          class Tool_, class Terms_, Symmetry storage>
+template <class Kinematics_, class Bodies_, class Friction_, class Surfaces_, class Enforcement_, class Inertia_,
+          class Damping_, class Tool_, class Terms_, Symmetry storage>
 struct Mechanics : detail::NamedTool<Tool_>, detail::BodiesOfMechanics<Bodies_> {
   using Kinematics = Kinematics_;
   using Friction = Friction_;
+  using Surfaces = Surfaces_;
   using Enforcement = Enforcement_;
   using TimeIntegration = Inertia_;
   using Damping = Damping_;
@@ -297,10 +344,11 @@ struct Mechanics : detail::NamedTool<Tool_>, detail::BodiesOfMechanics<Bodies_> 
   using LinearSolver = detail::StorageOnly<storage>;
 };
 template <class Model>
-using MechanicsOf = Mechanics<typename Model::Kinematics, typename detail::BodiesIn<Model>::type,
-                              typename Model::Friction, typename Model::Enforcement, typename Model::TimeIntegration,
-                              DampingOf<Model>, typename detail::ToolNameOf<Model>::type,
-                              typename detail::TermTypesIn<Model>::type, matrix_storage<Model>>;
+using MechanicsOf =
+    Mechanics<typename Model::Kinematics, typename detail::BodiesIn<Model>::type, typename Model::Friction,
+              SurfacesOf<Model>, typename Model::Enforcement, typename Model::TimeIntegration, DampingOf<Model>,
+              typename detail::ToolNameOf<Model>::type, typename detail::TermTypesIn<Model>::type,
+              matrix_storage<Model>>;
 
 /// The rules of a model, a concept each. A rule that combines policies holds while one of them breaks its own
 /// contract: one mistake gives one sentence.
@@ -326,6 +374,11 @@ template <class Model>
 concept DirectionsNeedSpace = !Kinematics<Model> || !Friction<Model> || Model::Kinematics::dim == 3 ||
                               !friction_is_anisotropic<typename Model::Friction>;
 template <class Model>
+concept Surfaces = SurfacesPolicy<SurfacesOf<Model>>;
+template <class Model>
+concept SurfacesNeedContact =
+    !Surfaces<Model> || !Enforcement<Model> || Model::Enforcement::active || !SurfacesOf<Model>::active;
+template <class Model>
 concept TimeIntegration = TimeIntegrationPolicy<typename Model::TimeIntegration>;
 template <class Model>
 concept Damping = DampingPolicy<DampingOf<Model>>;
@@ -333,7 +386,7 @@ template <class Model>
 concept DampingNeedsInertia =
     !TimeIntegration<Model> || !Damping<Model> || Model::TimeIntegration::active || !DampingOf<Model>::active;
 template <class Model>
-concept HasSymmetry = Kinematics<Model> && Material<Model> && Friction<Model> && Enforcement<Model>;
+concept HasSymmetry = Kinematics<Model> && Material<Model> && Friction<Model> && Surfaces<Model> && Enforcement<Model>;
 template <class Model>
 concept LinearSolver = !HasSymmetry<Model> || LinearSolverPolicy<SolverOf<Model>>;
 template <class Model>
@@ -349,9 +402,9 @@ concept CorrectsCouplings = !HasSymmetry<Model> || !LinearSolver<Model> || !acce
 template <class Model>
 inline constexpr bool valid_model = rule::Kinematics<Model>&& rule::Element<Model>&& rule::SameDimension<Model>&&
     rule::Material<Model>&& rule::Friction<Model>&& rule::Enforcement<Model>&& rule::FrictionNeedsContact<Model>&&
-        rule::DirectionsNeedSpace<Model>&& rule::TimeIntegration<Model>&& rule::Damping<Model>&&
-            rule::DampingNeedsInertia<Model>&& rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>&&
-                rule::CorrectsCouplings<Model>;
+        rule::Surfaces<Model>&& rule::SurfacesNeedContact<Model>&& rule::DirectionsNeedSpace<Model>&&
+            rule::TimeIntegration<Model>&& rule::Damping<Model>&& rule::DampingNeedsInertia<Model>&&
+                rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>&& rule::CorrectsCouplings<Model>;
 
 /// Instantiate to have a model checked, one sentence for each rule.
 template <class Model>
@@ -379,6 +432,12 @@ struct CheckModel {
   static_assert(rule::DirectionsNeedSpace<Model>,
                 "stickslip: the model's Friction depends on the direction, and a section has but one; set Kinematics "
                 "to ThreeDimensional or take an isotropic law.");
+  static_assert(rule::Surfaces<Model>,
+                "stickslip: the model's Surfaces does not meet SurfacesPolicy; see docs/policies.md, section Surface "
+                "contact.");
+  static_assert(rule::SurfacesNeedContact<Model>,
+                "stickslip: the model has Surfaces but no Enforcement for them; set Enforcement (Penalty) or leave "
+                "Surfaces out.");
   static_assert(rule::TimeIntegration<Model>,
                 "stickslip: the model's TimeIntegration does not meet TimeIntegrationPolicy; see docs/policies.md, "
                 "section Time integration.");

@@ -133,8 +133,7 @@ class Diagnosis : public detail::PartSupports<typename Model::Kinematics> {
     for (const Index part : unsupported_) {
       bool held = false;
       for_each_contact(system_.pairs(), [&](const auto& pair) {
-        for (std::size_t k = 0; k < pair.nodes().size() && !held; ++k)
-          held = parts_.at(pair.nodes()[k]) == part && (ever || pair.touches(k));
+        pair.for_each_held(ever, [&](Index node) { held = held || parts_.at(node) == part; });
       });
       if (!held) return part;
     }

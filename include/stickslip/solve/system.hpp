@@ -183,11 +183,12 @@ class System : detail::Balance {
   Pairs& pairs() { return pairs_; }
   const Pairs& pairs() const { return pairs_; }
 
-  /// Prepares an attempt at a step from the converged displacements u at `time`: where a term's stencils have changed,
-  /// the pattern is made anew.
-  void update(const Field& u, Real time) {
+  /// Prepares an attempt at a step from the converged displacements u at `time`, which is guessed to end at `guess`:
+  /// where a term's stencils have changed, the pattern is made anew.
+  void update(const Field& u, Real time, const Field& guess) {
     bool changed = false;
     for_each_term([&](auto& term) { changed = term.update(u, time) || changed; });
+    for_each_contact(pairs_, [&](auto& pair) { changed = pair.update(u, guess) || changed; });
     if (!changed) return;
     ++pattern_revision_;
     connect();
@@ -196,6 +197,7 @@ class System : detail::Balance {
   /// stiffness, and accelerations that balance the forces. Throws std::invalid_argument where contacts cannot start.
   Failure start(const Field& u, Real time) {
     for_each_contact(pairs_, [&](auto& pair) { pair.start(u, time); });
+    update(u, time, u);
     if (const Failure f = compute_penalties(u, false)) return f;
     if constexpr (has_inertia<Model>) {
       if (const Failure f = assemble({u, time, 0, Want::tangent, nullptr, false, nullptr, matrix_, couplings_}))
@@ -257,14 +259,16 @@ class System : detail::Balance {
     SparsityPattern pattern(dofs, matrix_storage<Model>);
     bodies_.couple(pattern);
     for_each_term([&](const auto& term) { term.couple(pattern); });
+    for_each_contact(pairs_, [&](const auto& pair) { pair.couple(pattern); });
     matrix_ = Matrix(pattern);
     bodies_.connect(dofs, matrix_);
-    std::size_t nodes = 0;
+    std::size_t nodes = 0, entries = 0;
     for_each_contact(pairs_, [&](auto& pair) {
       pair.connect(dofs, matrix_);
       nodes += pair.nodes().size();
+      entries += pair.coupling_entries();
     });
-    couplings_.reserve(nodes);
+    couplings_.reserve(nodes, entries);
     inertia_.connect(matrix_);
     if (condenses()) condensed_.build(matrix_.view(), dofs, dofs_);
   }
@@ -279,7 +283,7 @@ class System : detail::Balance {
     if constexpr (std::tuple_size_v < TermsOf < Model >>> 0)
       std::apply([&](auto&... terms) { (visit(terms), ...); }, *terms_);
   }
-  using Couplings = std::conditional_t<stores_couplings<Model>, NodeCouplings<dim>, NoNodeCouplings>;
+  using Couplings = std::conditional_t<stores_couplings<Model>, NodeCouplings, NoNodeCouplings>;
   using EvaluationType = Evaluation<Matrix, Couplings>;
 
   // Tells contacts whose penalties are in parts of the body's stiffness what that is at the displacements u; if `all`

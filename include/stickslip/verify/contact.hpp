@@ -25,13 +25,13 @@ struct SingleNode {
   template <class S>
   NodeContact<S, dim, Memory<S>> at(const Vec<S, dim>& x, const Memory<S>& old, Real dt = 1) const {
     const SurfacePoint<S, dim> point = surface_point<S, dim>(tool, x);
-    return at_pressure(point, penalty_pressure(enforcement, weight, point, old), old, dt);
+    return at_pressure(point, penalty_pressure(enforcement, weight, point.gap, old), old, dt);
   }
 
   /// The same with the condensed pressure open: at `pressure` [force] instead of the pressure of the gap.
   RelationSample<dim> open(const Vec<Real, dim>& x, const Memory<Real>& old, Real pressure, Real dt = 1) const {
     const auto node = at_pressure<Real>(surface_point<Real, dim>(tool, x), pressure, old, dt);
-    return {node.force, node.stiffness + node.coupling, node.pressure};
+    return {node.force, node.stiffness + node.coupling(), node.pressure};
   }
 
   /// Memory after all but the last position of a path; the node starts at the first.
@@ -66,7 +66,7 @@ TangentReport contact_tangent(const SingleNode<Enforcement, Law, Friction, Tool,
                               const std::vector<Vec<Real, dim>>& path, Real dt = 1, Real step = 1e-5) {
   const auto old = node.template preloaded<Real>(path, dt);
   const auto now = node.template at<Real>(path.back(), old, dt);
-  const Mat<Real, dim> stiffness = now.stiffness + now.coupling;
+  const Mat<Real, dim> stiffness = now.stiffness + now.coupling();
   const auto dual_old = node.template preloaded<Dual<dim>>(path, dt);
   const Mat<Real, dim> by_duals =
       slopes<dim, dim>(node.template at<Dual<dim>>(seeded<dim>(path.back()), dual_old, dt).force);

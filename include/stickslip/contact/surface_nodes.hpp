@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/brief.hpp>
+#include <stickslip/contact/contact_record.hpp>
+#include <stickslip/contact/node_measures.hpp>
+#include <stickslip/contact/surface_points.hpp>
+#include <stickslip/dofs/sparsity_pattern.hpp>
+#include <stickslip/geometry/surface_point.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stickslip {
+
+/// The nodes of a slave side against a master side, whatever the laws. A node's gap and slip are means over the points
+/// of the facets around it, weighted with its shape function; their gradients reach the nodes of all facets that these
+/// points may meet (theory.md, section 4.8).
+template <class Kinematics, bool with_friction, bool takes_area>
+class SurfaceNodes : public ContactRecord<Kinematics::dim> {
+ public:
+  static constexpr int dim = Kinematics::dim;
+  static_assert(dim == 2, "stickslip: contact between surfaces is there in the plane and in axisymmetry alone.");
+  static constexpr int places = surface_coordinates<dim>;
+  static constexpr int components = 1 + places;  ///< gap and place
+  using Point = Vec<Real, dim>;
+  using Points = SurfacePoints<Kinematics>;
+
+  const Points& points() const { return points_; }
+  /// Whether the surface is in contact with itself.
+  bool self() const { return points_.self(); }
+  std::string warning_of_size() const { return ""; }
+
+  /// Makes points and stencils for a step from the displacements u that is guessed to end at `guess`. True where the
+  /// stencils have changed since the matrix was connected.
+  bool update(const Field& u, const Field& guess) {
+    points_.update(u, guess);
+    const std::size_t count = points_.point_count();
+    at_.resize(count);
+    slip_.resize(count);
+    slave_facet_.resize(count);
+    for (std::size_t f = 0; f < points_.slave().size(); ++f)
+      for (std::size_t q = 0; q < points_.points(f).size(); ++q) slave_facet_[points_.first_point(f) + q] = f;
+    stale_ = make_stencils() || stale_;
+    return stale_;
+  }
+  void couple(SparsityPattern& pattern) const {
+    std::vector<Index> components_of_node;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      components_of_node.clear();
+      for (const Index n : stencil(k))
+        for (int i = 0; i < dim; ++i) components_of_node.push_back(n * dim + i);
+      pattern.couple(components_of_node);
+    }
+  }
+
+  Failure begin_step(const Field&, Real, Real) requires with_friction { return {}; }
+  static constexpr bool slip_turns_too_far() requires with_friction { return false; }
+  static Failure slip_turned() requires with_friction { return {}; }
+  /// Largest motion of the surfaces against each other between two states [length].
+  Real largest_motion(const Field& from, const Field& to, Real, Real) const {
+    return points_.relative_motion(from, to);
+  }
+  /// Whether a node has gone through the other surface between two states (theory.md, eq. 4.39).
+  Failure check_tunnelling(const Field& from, const Field& to, Real, Real) const {
+    const Index node = points_.passed(from, to);
+    if (node == Surface::none) return {};
+    return {FailureCause::tunnelled, {Location::Kind::contact_node, node}};
+  }
+  /// Calls visit(node) for the nodes of both surfaces that touch; with `ever` for those that could.
+  template <class Visit>
+  void for_each_held(bool ever, Visit&& visit) const {
+    if (ever) {
+      for (const Surface* surface : {&points_.slave(), &points_.master()})
+        for (const Index n : surface->nodes()) visit(n);
+      return;
+    }
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (this->touches(k))
+        for (const Index n : stencil(k)) visit(n);
+  }
+
+ protected:
+  using Record = ContactRecord<dim>;
+  using Record::name_, Record::nodes_, Record::states_, Record::trial_summary_;
+  using Closest = typename Points::Closest;
+  static constexpr std::size_t no_place = static_cast<std::size_t>(-1);
+
+  // Throws std::invalid_argument, naming the contact, for parameters that cannot be.
+  template <class Description, class BodiesType>
+  SurfaceNodes(const Description& contact, const BodiesType& bodies)
+      : Record(contact.name.empty() ? contact.side + " on " + contact.against : contact.name, contact.side, {},
+               bodies.side_nodes(contact.side)),
+        start_depth_(contact.start_depth),
+        measures_(bodies.with_side(contact.side,
+                                   [&](const auto& body, const std::string& own) {
+                                     return NodeMeasures<dim, takes_area>(body.mesh(), body.kinematics(), own,
+                                                                          contact.enforcement.per);
+                                   })),
+        area_(bodies.side_areas(contact.side)),
+        points_(surface(bodies, contact.side), surface(bodies, contact.against), contact.side == contact.against,
+                bodies.with_side(contact.side, [](const auto& body, const std::string&) { return body.kinematics(); })),
+        place_(static_cast<std::size_t>(bodies.node_count()), no_place),
+        coverage_(nodes_.size(), 0.0),
+        covered_(coverage_),
+        gap_(covered_),
+        node_slip_(covered_),
+        means_(nodes_.size()),
+        extent_(bodies.extent()) {
+    if (!(start_depth_ >= 0)) this->refuse("start_depth must not be negative");
+    for (std::size_t k = 0; k < nodes_.size(); ++k) place_[static_cast<std::size_t>(nodes_[k])] = k;
+    stencil_start_.assign(nodes_.size() + 1, 0);
+  }
+
+  void serialize_measures(Archive& archive, const std::string& name) {
+    measures_.serialize(archive, name);
+    archive(name + ", coverage", coverage_);
+  }
+  // Measure behind a unit of penalty at a node, of the part of its area that faces the master.
+  Real weight(std::size_t k) const { return measures_.tributary()[k] * coverage_[k]; }
+  // What of a change of the displacements acts on a node: the changes of gap and place, to first order.
+  Vec<Real, components> change_at(std::size_t k, const Field& du) const {
+    Vec<Real, components> change = Vec<Real, components>::Zero();
+    for (std::size_t i = stencil_start_[k]; i < stencil_start_[k + 1]; ++i)
+      for (int c = 0; c < dim; ++c) {
+        const Real d = du[stencil_[i] * dim + c];
+        change[0] += gap_gradient_[i][c] * d;
+        if constexpr (with_friction) change[1] += slip_gradient_[i][c] * d;
+      }
+    return change;
+  }
+  std::span<const Index> stencil(std::size_t k) const {
+    return {stencil_.data() + stencil_start_[k], stencil_start_[k + 1] - stencil_start_[k]};
+  }
+
+  // The gaps of the nodes where they are at the start, with points made for it. Throws std::invalid_argument where a
+  // node lies deeper than its neighbours are away.
+  [[gnu::cold]] std::vector<SurfacePoint<Real, dim>> start_points(const Field& u, Real) {
+    update(u, u);
+    take_positions(u);
+    std::vector<SurfacePoint<Real, dim>> points(nodes_.size());
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      points[k].gap = gap_[k];
+      const Real depth = -gap_[k];
+      if (depth > std::max(measures_.spacing(k), start_depth_) * (1 + 1e-9))
+        this->refuse(joined({"node ", std::to_string(nodes_[k]), " starts ", brief(depth),
+                             " deep inside the other surface, and its next neighbour is ", brief(measures_.spacing(k)),
+                             " away; for so deep a fit set start_depth"}));
+    }
+    return points;
+  }
+
+  // Takes the positions of all points, and the nodes' gaps and slips from them.
+  bool take_positions(const Field& u) {
+    covered_.assign(nodes_.size(), 0.0);
+    gap_.assign(nodes_.size(), 0.0);
+    node_slip_.assign(nodes_.size(), 0.0);
+    deepest_ = 0;
+    bool finite = true;
+    for (std::size_t q = 0; q < at_.size(); ++q) {
+      const std::size_t f = slave_facet_[q];
+      const SurfacePointOf& point = points_.points(f)[q - points_.first_point(f)];
+      at_[q] = points_.closest(u, f, point.eta);
+      if (at_[q].facet == Surface::none) continue;
+      finite = finite && std::isfinite(at_[q].foot.gap());
+      deepest_ = std::max(deepest_, -at_[q].foot.gap());
+      slip_[q].followed = false;
+      slip_[q].way = 0;
+      if constexpr (with_friction) slip_[q].followed = points_.slip(point, at_[q], slip_[q].way);
+      for_each_share(q, [&](std::size_t k, Real share) {
+        covered_[k] += share;
+        gap_[k] += share * at_[q].foot.gap();
+        node_slip_[k] += share * slip_[q].way;
+      });
+    }
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      coverage_[k] = faces(k) ? std::min(Real(1), covered_[k] / area_[k]) : 0;
+      gap_[k] = faces(k) ? gap_[k] / covered_[k] : points_.reach();
+      node_slip_[k] = faces(k) ? node_slip_[k] / covered_[k] : 0;
+    }
+    return finite;
+  }
+  // Whether a node faces the master at all; its gap, and its slip since the step began.
+  bool faces(std::size_t k) const { return covered_[k] > 1e-9 * area_[k]; }
+  Real gap(std::size_t k) const { return gap_[k]; }
+  Vec<Real, places> slip(std::size_t k) const { return Vec<Real, places>(node_slip_[k]); }
+  // Sum of the weights of its points, and whether a point's slip counts.
+  Real covered(std::size_t k) const { return covered_[k]; }
+  bool follows(std::size_t q) const { return slip_[q].followed; }
+  // Round-off of a gap at the displacements u.
+  Real gap_roundoff(const Field& u) const {
+    return std::numeric_limits<Real>::epsilon() * (extent_ + u.template lpNorm<Eigen::Infinity>());
+  }
+  // Makes the gradients of the nodes' gaps and slips; `wanted(k)` says of which.
+  template <class Wanted>
+  void take_gradients(Wanted&& wanted) {
+    for (auto& g : gap_gradient_) g.setZero();
+    for (auto& m : means_) m = {};
+    if constexpr (with_friction)
+      for (auto& g : slip_gradient_) g.setZero();
+    for_each_point([&](std::size_t q, const Closest& at, const std::array<Index, 4>& nodes) {
+      for_each_share(q, [&](std::size_t k, Real share) {
+        if (!wanted(k)) return;
+        const Real c = share / covered_[k];
+        means_[k].stretch += c * (at.foot.stretch() > 0 ? at.foot.stretch() : 1);
+        for (std::size_t p = 0; p < 2; ++p) {
+          add(means_[k].normal, at.foot.gap_gradient(p), c);
+          if constexpr (with_friction)
+            if (slip_[q].followed) add(means_[k].along, at.foot.place_gradient(p), c);
+        }
+        for (std::size_t p = 0; p < nodes.size(); ++p) {
+          const std::size_t i = entry(k, nodes[p]);
+          add(gap_gradient_[i], at.foot.gap_gradient(p), c);
+          if constexpr (with_friction)
+            if (slip_[q].followed) add(slip_gradient_[i], at.foot.place_gradient(p), c);
+        }
+      });
+    });
+  }
+  // Calls visit(q, closest, nodes of its stencil) for the points with a foot.
+  template <class Visit>
+  void for_each_point(Visit&& visit) const {
+    for (std::size_t q = 0; q < at_.size(); ++q) {
+      if (at_[q].facet == Surface::none) continue;
+      const auto& s = points_.slave().facet(slave_facet_[q]);
+      const auto& m = points_.master().facet(static_cast<std::size_t>(at_[q].facet));
+      visit(q, at_[q], std::array<Index, 4>{s[0], s[1], m[0], m[1]});
+    }
+  }
+  // Calls visit(k, weight times shape function) for the two nodes that share a point.
+  template <class Visit>
+  void for_each_share(std::size_t q, Visit&& visit) const {
+    const std::size_t f = slave_facet_[q];
+    const SurfacePointOf& point = points_.points(f)[q - points_.first_point(f)];
+    const auto& ends = points_.slave().facet(f);
+    visit(place_[static_cast<std::size_t>(ends[0])], point.weight * (1 - point.eta));
+    visit(place_[static_cast<std::size_t>(ends[1])], point.weight * point.eta);
+  }
+  // Where a node is in the stencil of contact node k.
+  std::size_t entry(std::size_t k, Index node) const {
+    std::size_t i = stencil_start_[k];
+    while (stencil_[i] != node) ++i;
+    return i;
+  }
+
+  std::size_t first_entry(std::size_t k) const { return stencil_start_[k]; }
+  // Derivatives of a node's gap and slip by a component of its stencil, counted over all stencils.
+  Real gap_slope(std::size_t i) const { return gap_gradient_[i / dim][static_cast<int>(i % dim)]; }
+  Real slip_slope(std::size_t i) const { return slip_gradient_[i / dim][static_cast<int>(i % dim)]; }
+  // Adds the forces at the nodes of all facets that tractions along the gap and the slip of a node are.
+  void scatter(std::size_t k, Real normal, const Vec<Real, places>& along, Field& field) const {
+    for (std::size_t i = stencil_start_[k]; i < stencil_start_[k + 1]; ++i) {
+      Point f = scaled(gap_gradient_[i], normal);
+      if constexpr (with_friction) add(f, slip_gradient_[i], along[0]);
+      add_at_node<dim>(field, stencil_[i], f);
+    }
+  }
+  // The same as one force on the master.
+  Point force(std::size_t k, Real normal, const Vec<Real, places>& along) const {
+    Point f = scaled(means_[k].normal, normal);
+    if constexpr (with_friction) add(f, means_[k].along, along[0]);
+    return f;
+  }
+  // Length of the master in the metric of the places over its present one, a mean at a node.
+  Real stretch(std::size_t k) const { return means_[k].stretch; }
+
+  struct PointSlip {
+    Real way = 0;
+    bool followed = false;
+  };
+  struct Means {
+    Point normal = Point::Zero(), along = Point::Zero();
+    Real stretch = 0;
+  };
+  Real start_depth_;
+  NodeMeasures<dim, takes_area> measures_;
+  std::vector<Real> area_;  // of the nodes, in the reference configuration
+  Points points_;
+  std::vector<std::size_t> place_;  // of a node of the scene among the contact nodes
+  // Of the nodes in the last evaluation: the parts and the measures of their areas that face the master, gaps, slips.
+  std::vector<Real> coverage_, covered_, gap_, node_slip_;
+  std::vector<Means> means_;  // over the points of a node
+  Real extent_;               // of the bodies
+  std::vector<Closest> at_;
+  std::vector<PointSlip> slip_;
+  std::vector<std::size_t> slave_facet_;  // of a point
+  std::vector<std::size_t> stencil_start_;
+  std::vector<Index> stencil_;
+  std::vector<Point> gap_gradient_, slip_gradient_;  // by entry of a stencil
+  Real deepest_ = 0;                                 // of a point
+  bool stale_ = true;                                // the stencils, for the matrix
+
+ private:
+  template <class BodiesType>
+  static Surface surface(const BodiesType& bodies, const std::string& side) {
+    return bodies.with_side(side, [&](const auto& body, const std::string& own) {
+      auto facets = body.mesh().side(own).facets;
+      if (facets.empty())
+        throw std::invalid_argument("surface contact: side \"" + side + "\" has no facets to touch with");
+      for (auto& facet : facets)
+        for (Index& n : facet) n += body.first_node();
+      return Surface(std::move(facets), bodies.positions());
+    });
+  }
+  bool make_stencils() {
+    const std::vector<std::size_t> old_start = stencil_start_;
+    const std::vector<Index> old = stencil_;
+    std::vector<std::vector<Index>> reached(nodes_.size());
+    for (std::size_t f = 0; f < points_.slave().size(); ++f) {
+      if (points_.candidates(f).empty()) continue;
+      for (const Index end : points_.slave().facet(f)) {
+        auto& list = reached[place_[static_cast<std::size_t>(end)]];
+        for (const Index n : points_.slave().facet(f)) list.push_back(n);
+        for (const std::size_t g : points_.candidates(f))
+          for (const Index n : points_.master().facet(g)) list.push_back(n);
+      }
+    }
+    stencil_.clear();
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      std::sort(reached[k].begin(), reached[k].end());
+      reached[k].erase(std::unique(reached[k].begin(), reached[k].end()), reached[k].end());
+      stencil_.insert(stencil_.end(), reached[k].begin(), reached[k].end());
+      stencil_start_[k + 1] = stencil_.size();
+    }
+    gap_gradient_.assign(stencil_.size(), Point::Zero());
+    if constexpr (with_friction) slip_gradient_.assign(stencil_.size(), Point::Zero());
+    return stencil_ != old || stencil_start_ != old_start;
+  }
+};
+
+}  // namespace stickslip

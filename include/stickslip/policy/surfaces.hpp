@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <stickslip/base/role.hpp>
+#include <stickslip/policy/friction.hpp>
+
+#include <concepts>
+
+namespace stickslip {
+
+/// Whether the bodies of a model touch each other and themselves, and with which friction. docs/policies.md, section
+/// Surface contact.
+template <class P>
+concept SurfacesPolicy = requires {
+  requires std::same_as<typename P::Role, role::Surfaces>;
+  requires std::same_as<decltype(P::active), const bool>;
+  requires !P::active || SingleFriction<typename P::Friction>;
+};
+
+/// Bodies touch tools alone: what a model has that names no surfaces.
+struct NoSurfaceContact {
+  using Role = role::Surfaces;
+  static constexpr bool active = false;
+};
+
+}  // namespace stickslip
