@@ -4,6 +4,7 @@
 #include <stickslip/base/brief.hpp>
 #include <stickslip/contact/contact_record.hpp>
 #include <stickslip/contact/node_measures.hpp>
+#include <stickslip/contact/persistency.hpp>
 #include <stickslip/contact/surface_points.hpp>
 #include <stickslip/dofs/sparsity_pattern.hpp>
 #include <stickslip/geometry/surface_point.hpp>
@@ -70,6 +71,18 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
     const Index node = points_.passed(from, to);
     if (node == Surface::none) return {};
     return {FailureCause::tunnelled, {Location::Kind::contact_node, node}};
+  }
+  /// Makes the velocities of both surfaces persist at pressed nodes over a step: their rates of gap and, where they
+  /// stick, of slip (theory.md, eq. 4.40).
+  void persist_velocities(const IndexMap& dofs, const Field& from, const Field& to, Real begin, Real end,
+                          const Field& before, const Field& mass, Field& velocity) const {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const ContactNodeState<dim>& now = states_.trial(k);
+      if (!(now.pressure > 0)) continue;
+      persist(k, gap_gradient_, dofs, from, to, end - begin, before, mass, velocity);
+      if constexpr (with_friction)
+        if (!now.sliding) persist(k, slip_gradient_, dofs, from, to, end - begin, before, mass, velocity);
+    }
   }
   /// Calls visit(node) for the nodes of both surfaces that touch; with `ever` for those that could.
   template <class Visit>
@@ -295,6 +308,31 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
   bool stale_ = true;                                // the stencils, for the matrix
 
  private:
+  // Changes the velocity by an impulse along a gradient, so that its rate persists.
+  void persist(std::size_t k, const std::vector<Point>& gradient, const IndexMap& dofs, const Field& from,
+               const Field& to, Real dt, const Field& before, const Field& mass, Field& velocity) const {
+    Real rate0 = 0, rate1 = 0, mean = 0, response = 0;
+    for_each_component(k, [&](std::size_t i, Index node, int c) {
+      const Index at = node * dim + c;
+      const Real slope = gradient[i][c];
+      rate0 += slope * before[at];
+      rate1 += slope * velocity[at];
+      mean += slope * (to[at] - from[at]) / dt;
+      if (dofs.equation(at) != IndexMap::constrained && mass[node] > 0) response += slope * slope / mass[node];
+    });
+    const Real change = persistent(rate0, rate1, mean) - rate1;
+    if (change == 0 || !(response > 0)) return;
+    for_each_component(k, [&](std::size_t i, Index node, int c) {
+      if (dofs.equation(node * dim + c) != IndexMap::constrained && mass[node] > 0)
+        velocity[node * dim + c] += change / response * gradient[i][c] / mass[node];
+    });
+  }
+  // Calls visit(entry, node, component) over the stencil of a node.
+  template <class Visit>
+  void for_each_component(std::size_t k, Visit&& visit) const {
+    for (std::size_t i = stencil_start_[k]; i < stencil_start_[k + 1]; ++i)
+      for (int c = 0; c < dim; ++c) visit(i, stencil_[i], c);
+  }
   template <class BodiesType>
   static Surface surface(const BodiesType& bodies, const std::string& side) {
     return bodies.with_side(side, [&](const auto& body, const std::string& own) {

@@ -103,11 +103,17 @@ class SurfacePoints {
         const Point v = before ? a : b, away = minus(x, v);
         const Real distance = contraction(away, away);
         if (!(distance < nearest)) continue;
-        nearest = distance;
+        // Past the facet beyond as well, or that one is closer, whether the point may meet it or not.
+        const auto& next = master_.facet(static_cast<std::size_t>(beyond));
+        const Point along = minus(master_.position(u, next[1]), master_.position(u, next[0]));
+        if (before ? contraction(away, along) < 0 : contraction(away, along) > 0) continue;
         const Point outward = master_.normal(u, g) + master_.normal(u, static_cast<std::size_t>(beyond));
-        best = {SegmentFoot::at_vertex(x, eta, v, after, contraction(away, outward) < 0,
-                                       scaled(outward, 1 / outward.norm())),
-                static_cast<Index>(g), !std::binary_search(all.begin(), all.end(), static_cast<std::size_t>(beyond))};
+        const bool inside = contraction(away, outward) < 0,
+                   at_end = !std::binary_search(all.begin(), all.end(), static_cast<std::size_t>(beyond));
+        if (inside && at_end) continue;  // behind a facet that it does not face
+        nearest = distance;
+        best = {SegmentFoot::at_vertex(x, eta, v, after, inside, scaled(outward, 1 / outward.norm())),
+                static_cast<Index>(g), at_end};
       } else {
         const Real across = way[1] * from[0] - way[0] * from[1], distance = across * across / square;
         if (!(distance < nearest)) continue;
