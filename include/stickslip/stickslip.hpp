@@ -7,7 +7,8 @@
 /// - linear_solver/eigen_iterative.hpp, whose Eigen headers would cost each program a second to compile, of twelve of
 ///   README.md's;
 /// - what needs another library: linear_solver/cholmod.hpp, linear_solver/umfpack.hpp, linear_solver/mumps.hpp,
-///   linear_solver/banded.hpp, material/tabulated_hardening.hpp, geometry/triangulated.hpp.
+///   linear_solver/banded.hpp, material/tabulated_hardening.hpp, geometry/triangulated.hpp,
+///   contact/surface_contact.hpp.
 
 #include <stickslip/advise.hpp>
 #include <stickslip/damping/stiffness_damping.hpp>

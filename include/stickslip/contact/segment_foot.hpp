@@ -10,7 +10,7 @@
 namespace stickslip {
 
 /// A point of a slave segment against a master segment: its gap, the place of its foot, and their derivatives by the
-/// positions of the four nodes, those of the slave's segment first (theory.md, eq. 4.30-4.33).
+/// positions of the four nodes, those of the slave's segment first (theory.md, eq. 4.29-4.36).
 class SegmentFoot {
  public:
   static constexpr int dim = 2;

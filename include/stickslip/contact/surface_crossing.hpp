@@ -13,7 +13,7 @@
 namespace stickslip {
 
 /// Whether nodes of one surface have gone through another within a step, all positions on straight ways (theory.md, eq.
-/// 4.39).
+/// 4.43 and 4.44).
 class SurfaceCrossing {
  public:
   using Point = Vec<Real, 2>;

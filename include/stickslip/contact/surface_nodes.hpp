@@ -20,7 +20,7 @@ namespace stickslip {
 
 /// The nodes of a slave side against a master side, whatever the laws. A node's gap and slip are means over the points
 /// of the facets around it, weighted with its shape function; their gradients reach the nodes of all facets that these
-/// points may meet (theory.md, section 4.8).
+/// points may meet (theory.md, eq. 4.37).
 template <class Kinematics, bool with_friction, bool takes_area>
 class SurfaceNodes : public ContactRecord<Kinematics::dim> {
  public:
@@ -66,14 +66,14 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
   Real largest_motion(const Field& from, const Field& to, Real, Real) const {
     return points_.relative_motion(from, to);
   }
-  /// Whether a node has gone through the other surface between two states (theory.md, eq. 4.39).
+  /// Whether a node has gone through the other surface between two states (theory.md, eq. 4.43 and 4.44).
   Failure check_tunnelling(const Field& from, const Field& to, Real, Real) const {
     const Index node = points_.passed(from, to);
     if (node == Surface::none) return {};
     return {FailureCause::tunnelled, {Location::Kind::contact_node, node}};
   }
   /// Makes the velocities of both surfaces persist at pressed nodes over a step: their rates of gap and, where they
-  /// stick, of slip (theory.md, eq. 4.40).
+  /// stick, of slip (theory.md, eq. 4.45).
   void persist_velocities(const IndexMap& dofs, const Field& from, const Field& to, Real begin, Real end,
                           const Field& before, const Field& mass, Field& velocity) const {
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
@@ -133,7 +133,7 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
     measures_.serialize(archive, name);
     archive(name + ", coverage", coverage_);
   }
-  // Measure behind a unit of penalty at a node, of the part of its area that faces the master.
+  // Measure behind a unit of penalty at a node, of the part of its area that faces the master (eq. 4.38).
   Real weight(std::size_t k) const { return measures_.tributary()[k] * coverage_[k]; }
   // What of a change of the displacements acts on a node: the changes of gap and place, to first order.
   Vec<Real, components> change_at(std::size_t k, const Field& du) const {

@@ -22,7 +22,7 @@ using SurfaceHistory = ContactHistory<typename Model::Enforcement, Friction,
 }  // namespace detail
 
 /// The contact term of one surface on another, or on itself: its kernels are contact_law at the nodes and SegmentFoot
-/// at the points (theory.md, eq. 4.30-4.38).
+/// at the points (theory.md, eq. 4.37-4.40).
 template <class Model, class Friction_>
 class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
  public:
@@ -95,7 +95,7 @@ class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
   }
 
   /// Makes the last evaluation's memory and forces the converged ones; tractions go to the metric of the new
-  /// configuration (theory.md, eq. 4.38).
+  /// configuration (theory.md, eq. 4.41).
   void commit() {
     if constexpr (with_friction)
       for (std::size_t k = 0; k < nodes_.size(); ++k) {

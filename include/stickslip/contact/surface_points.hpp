@@ -25,7 +25,7 @@ struct SurfacePointOf {
 };
 
 /// The points of a slave surface against a master surface over a step: where they are, and which master facets they may
-/// meet (theory.md, section 4.8). Both are functions of the state that the step starts from and of its guess.
+/// meet (theory.md, eq. 4.42). Both are functions of the state that the step starts from and of its guess.
 template <class Kinematics>
 class SurfacePoints {
  public:

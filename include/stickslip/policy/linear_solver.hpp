@@ -95,7 +95,7 @@ inline constexpr bool is_direct = requires {
   requires L::direct;
 };
 
-/// Whether a solver takes a general system as a symmetric matrix and the blocks that it lacks.
+/// Whether a solver takes a general system as a symmetric matrix and the dyads that it lacks.
 template <class L>
 inline constexpr bool accepts_couplings = requires {
   requires L::corrects;
