@@ -372,6 +372,7 @@ class Scene : public BodyScene<Bodies<Model>> {
     this->check_bodies(archive);
     archive.check_equal("friction", type_name<typename Model::Friction>());
     archive.check_equal("enforcement", type_name<typename Model::Enforcement>());
+    if constexpr (has_surfaces<Model>) archive.check_equal("surfaces", type_name<SurfacesOf<Model>>());
     if constexpr (with_contact) archive.check_equal("tool", type_name<ToolOf<Model>>());
     archive.check_equal("time integration", type_name<typename Model::TimeIntegration>());
     archive.check_equal("damping", type_name<DampingOf<Model>>());

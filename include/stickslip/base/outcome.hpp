@@ -63,7 +63,7 @@ inline const char* describe(FailureCause cause) {
     case FailureCause::slide_turns:
       return "a tool turned, or moved to and fro, within the step by more than a node's slide can follow";
     case FailureCause::tunnelled:
-      return "a node went through a tool within the step";
+      return "a node went through a tool or a surface within the step";
     case FailureCause::energy_gained:
       return "the time scheme has gained energy out of nothing";
     case FailureCause::stalled:

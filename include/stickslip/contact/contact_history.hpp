@@ -170,9 +170,10 @@ class ContactHistory : public Nodes {
     Real sum = 0;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       if (!states_.converged(k).touching) continue;
-      sum += enforcement_.energy(states_.converged(k).gap, this->weight(k));
+      sum += enforcement_.energy(states_.converged(k).gap, this->converged_weight(k));
       if constexpr (with_friction)
-        sum += 0.5 * memory_.converged(k).friction.traction.squaredNorm() / stick_stiffness(k);
+        sum += 0.5 * memory_.converged(k).friction.traction.squaredNorm() /
+               enforcement_.stick_stiffness(this->converged_weight(k));
     }
     return sum;
   }

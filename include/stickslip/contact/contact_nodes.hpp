@@ -126,6 +126,7 @@ class ContactNodes : public ContactRecord<dim_> {
   void serialize_measures(Archive& archive, const std::string& name) { measures_.serialize(archive, name); }
   // Measure behind a unit of penalty at a node.
   Real weight(std::size_t k) const { return measures_.tributary()[k]; }
+  Real converged_weight(std::size_t k) const { return weight(k); }
   // What of a change of the displacements acts on a node.
   Point change_at(std::size_t k, const Field& du) const { return at_node<dim>(du, nodes_[k]); }
   // The closest points to the nodes where they are at the start. Throws std::invalid_argument where the tool has no

@@ -211,13 +211,13 @@ using PairList = std::list<ContactPair<Model, Friction>>;
 }  // namespace detail
 
 namespace detail {
-template <class Model, class ToolPairs, class Surfaces>
+template <class Model, class ToolPairs, class Surfaces, bool active = Surfaces::active>
 struct AllPairs {
-  using type = std::tuple<ToolPairs, std::list<typename Surfaces::template Pair<Model>>>;
-};
-template <class Model, class ToolPairs>
-struct AllPairs<Model, ToolPairs, NoSurfaceContact> {
   using type = ToolPairs;
+};
+template <class Model, class ToolPairs, class Surfaces>
+struct AllPairs<Model, ToolPairs, Surfaces, true> {
+  using type = std::tuple<ToolPairs, std::list<typename Surfaces::template Pair<Model>>>;
 };
 template <class Model>
 using ToolPairs = typename ContactLists<Model, typename Model::Friction, PairList>::type;

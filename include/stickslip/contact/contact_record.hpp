@@ -131,7 +131,8 @@ class ContactRecord {
   }
   // Notes the trial state of a node, and of one that touches what its `kernel` result contributes.
   void note_node(const ContactNodeState<dim>& before, const ContactNodeState<dim>& state) {
-    trial_summary_.penalty_work += 0.5 * std::abs(state.pressure * state.gap - before.pressure * before.gap);
+    const auto work = [](const ContactNodeState<dim>& at) { return at.pressure > 0 ? at.pressure * at.gap : 0; };
+    trial_summary_.penalty_work += 0.5 * std::abs(work(state) - work(before));
     trial_summary_.max_slip = std::max(trial_summary_.max_slip, state.accumulated_slip);
   }
   template <class Kernel>

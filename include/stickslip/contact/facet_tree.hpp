@@ -7,10 +7,12 @@
 #pragma push_macro("BOOST_ALLOW_DEPRECATED_HEADERS")
 #undef BOOST_ALLOW_DEPRECATED_HEADERS
 #define BOOST_ALLOW_DEPRECATED_HEADERS
+#include <boost/geometry/algorithms/distance.hpp>
 #include <boost/geometry/core/cs.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/geometry/strategies/cartesian/distance_pythagoras_point_box.hpp>
 #include <boost/iterator/function_output_iterator.hpp>
 #pragma pop_macro("BOOST_ALLOW_DEPRECATED_HEADERS")
 
@@ -39,6 +41,13 @@ class FacetTree {
   template <class Visit>
   void for_each_in(const Box& box, Visit&& visit) const {
     tree_.query(boost::geometry::index::intersects(in_tree(box)),
+                boost::make_function_output_iterator([&](const Leaf& leaf) { visit(leaf.second); }));
+  }
+
+  /// Calls visit(facet) for those whose boxes are nearest to a place, `count` of them.
+  template <class Visit>
+  void for_each_near(const Vec<Real, 2>& x, unsigned count, Visit&& visit) const {
+    tree_.query(boost::geometry::index::nearest(Point(x[0], x[1]), count),
                 boost::make_function_output_iterator([&](const Leaf& leaf) { visit(leaf.second); }));
   }
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,10 @@ class Surface {
   static constexpr Index none = -1;
 
   /// Of the facets of a side, by the numbers of the scene's nodes, at the reference positions X. It must outlive this.
-  Surface(std::vector<Facet> facets, const std::vector<Point>& X) : X_(X), facets_(std::move(facets)) {
-    connect();
+  /// Throws std::invalid_argument, naming the side, where more than two facets meet at a node.
+  Surface(std::vector<Facet> facets, const std::vector<Point>& X, const std::string& side)
+      : X_(X), facets_(std::move(facets)) {
+    connect(side);
     measure();
   }
 
@@ -38,14 +41,15 @@ class Surface {
   /// The facets that follow and precede one in its chain; `none` at an end.
   Index next(std::size_t f) const { return next_[f]; }
   Index previous(std::size_t f) const { return previous_[f]; }
-  /// A facet of a node; `none` where it has none.
-  Index facet_at(Index node) const {
-    const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), node);
-    return found == nodes_.end() || *found != node ? none : facet_at_[static_cast<std::size_t>(found - nodes_.begin())];
-  }
   /// Reference length of a facet [length].
   Real length(std::size_t f) const { return length_[f]; }
   Real largest_length() const { return *std::max_element(length_.begin(), length_.end()); }
+  /// Of the facets at the displacements u.
+  Real largest_length(const Field& u) const {
+    Real largest = 0;
+    for (const Facet& f : facets_) largest = std::max(largest, minus(position(u, f[1]), position(u, f[0])).norm());
+    return largest;
+  }
   /// How deep a point may lie behind a facet to be in contact with it: half the wall's thickness there, as far as this
   /// surface bounds the wall, and no more than the facet's length [length].
   Real deepest(std::size_t f) const { return deepest_[f]; }
@@ -60,6 +64,30 @@ class Surface {
     return false;
   }
 
+  /// The same of a facet and the facets of a node.
+  bool near(Index node, std::size_t f) const {
+    const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), node);
+    if (found == nodes_.end() || *found != node) return false;
+    for (const Index own : facets_at_[static_cast<std::size_t>(found - nodes_.begin())])
+      if (own != none && neighbours(static_cast<std::size_t>(own), f)) return true;
+    return false;
+  }
+  /// How deep a place lies behind the facet that is closest to it; negative in front of it, 0 past an end [length].
+  Real depth(const Field& u, const Point& x, const FacetTree& tree) const {
+    Real nearest = std::numeric_limits<Real>::infinity(), depth = 0;
+    tree.for_each_near(x, 16, [&](std::size_t f) {
+      const Point a = position(u, facets_[f][0]), way = minus(position(u, facets_[f][1]), a), from = minus(x, a);
+      const Real square = contraction(way, way), xi = contraction(from, way) / square;
+      Point away = from;
+      add(away, way, -std::clamp(xi, Real(0), Real(1)));
+      const Real distance = away.norm();
+      if (!(distance < nearest)) return;
+      nearest = distance;
+      const bool past = (xi < 0 && previous_[f] == none) || (xi > 1 && next_[f] == none);
+      depth = past ? 0 : std::copysign(distance, way[0] * from[1] - way[1] * from[0]);
+    });
+    return depth;
+  }
   /// Position of a node at the displacements u [length].
   Point position(const Field& u, Index node) const {
     Point x = X_[static_cast<std::size_t>(node)];
@@ -103,7 +131,28 @@ class Surface {
   bool same_chain(std::size_t f, std::size_t g) const { return chain_[f] == chain_[g]; }
 
  private:
-  void connect() {
+  // Sorts the facets along their chains.
+  void order(const std::string& side) {
+    std::map<Index, Facet> begins;
+    std::map<Index, int> ends;
+    for (const Facet& f : facets_)
+      if (!begins.emplace(f[0], f).second || ++ends[f[1]] > 1)
+        throw std::invalid_argument("surface contact: side \"" + side + "\" branches at node " +
+                                    std::to_string(ends[f[1]] > 1 ? f[1] : f[0]));
+    std::vector<Facet> sorted;
+    const auto walk = [&](Index first) {
+      for (auto at = begins.find(first); at != begins.end(); at = begins.find(sorted.back()[1])) {
+        sorted.push_back(at->second);
+        begins.erase(at);
+      }
+    };
+    for (const Facet& f : facets_)
+      if (ends[f[0]] == 0) walk(f[0]);
+    while (!begins.empty()) walk(begins.begin()->first);
+    facets_ = std::move(sorted);
+  }
+  void connect(const std::string& side) {
+    order(side);
     std::map<Index, Index> begins, ends;
     for (std::size_t f = 0; f < size(); ++f) {
       begins[facets_[f][0]] = static_cast<Index>(f);
@@ -112,11 +161,10 @@ class Surface {
     }
     std::sort(nodes_.begin(), nodes_.end());
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
-    facet_at_.resize(nodes_.size());
-    for (std::size_t f = 0; f < size(); ++f)
-      for (const Index n : facets_[f])
-        facet_at_[static_cast<std::size_t>(std::lower_bound(nodes_.begin(), nodes_.end(), n) - nodes_.begin())] =
-            static_cast<Index>(f);
+    for (const Index n : nodes_) {
+      const auto begin = begins.find(n), end = ends.find(n);
+      facets_at_.push_back({begin == begins.end() ? none : begin->second, end == ends.end() ? none : end->second});
+    }
     const auto at = [](const std::map<Index, Index>& list, Index node) {
       const auto found = list.find(node);
       return found == list.end() ? none : found->second;
@@ -181,9 +229,10 @@ class Surface {
  private:
   const std::vector<Point>& X_;
   std::vector<Facet> facets_;
-  std::vector<Index> nodes_, facet_at_, next_, previous_;
-  std::vector<std::size_t> chain_, firsts_;  // of a facet; of a chain
-  std::vector<bool> closed_;                 // of a chain
+  std::vector<Index> nodes_, next_, previous_;
+  std::vector<std::array<Index, 2>> facets_at_;  // of a node, the one that it begins and the one that it ends
+  std::vector<std::size_t> chain_, firsts_;      // of a facet; of a chain
+  std::vector<bool> closed_;                     // of a chain
   std::vector<Real> length_, deepest_, start_, places_length_, perimeter_;
 };
 

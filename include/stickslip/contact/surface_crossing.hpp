@@ -23,25 +23,19 @@ class SurfaceCrossing {
       : surface_(surface), from_(from), to_(to), tree_(surface.size(), [&](std::size_t f) { return swept(f); }) {}
 
   /// Whether a node has gone in and is no longer where contact would lead it back: it lies deeper than a quarter of the
-  /// wall, or has come out at the other side of it. A surface's own node does not meet the facets next to it: `own` is
-  /// one of its facets, or none.
-  bool passed(Index node, Index own) const {
+  /// wall, or has come out at the other side of it. A surface's own node does not meet the facets next to it.
+  bool passed(Index node) const {
     const Point p0 = surface_.position(from_, node), p1 = surface_.position(to_, node);
     bool gone = false;
     tree_.for_each_in({p0.cwiseMin(p1), p0.cwiseMax(p1)}, [&](std::size_t f) {
-      if (gone || near(own, node, f)) return;
-      if (enters(p0, p1, f)) gone = lost(node, own, p1, f);
+      if (gone || surface_.near(node, f)) return;
+      if (enters(p0, p1, f)) gone = lost(node, p1, f);
     });
     return gone;
   }
 
  private:
   static Real cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
-  bool near(Index own, Index node, std::size_t f) const {
-    const auto& ends = surface_.facet(f);
-    return node == ends[0] || node == ends[1] ||
-           (own != Surface::none && surface_.neighbours(static_cast<std::size_t>(own), f));
-  }
   FacetTree::Box swept(std::size_t f) const {
     const FacetTree::Box a = surface_.box(from_, f, 0), b = surface_.box(to_, f, 0);
     return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
@@ -72,13 +66,13 @@ class SurfaceCrossing {
     return inside > 0;
   }
   // Whether a node that went in through a facet has left the place where that would lead it back.
-  bool lost(Index node, Index own, const Point& p, std::size_t through) const {
+  bool lost(Index node, const Point& p, std::size_t through) const {
     Real nearest = std::numeric_limits<Real>::infinity(), gap = 0;
     std::size_t at = through;
     const Real reach = surface_.length(through) + surface_.deepest(through);
     const Point margin(reach, reach);
     tree_.for_each_in({p - margin, p + margin}, [&](std::size_t f) {
-      if (near(own, node, f)) return;
+      if (surface_.near(node, f)) return;
       const auto& ends = surface_.facet(f);
       const Point a = surface_.position(to_, ends[0]), w = minus(surface_.position(to_, ends[1]), a), r = minus(p, a);
       const Real xi = std::clamp(contraction(r, w) / contraction(w, w), Real(0), Real(1));

@@ -84,9 +84,11 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
         if (!now.sliding) persist(k, slip_gradient_, dofs, from, to, end - begin, before, mass, velocity);
     }
   }
-  /// Calls visit(node) for the nodes of both surfaces that touch; with `ever` for those that could.
+  /// Calls visit(node) for the nodes of both surfaces that touch; with `ever` for those that could. Of a surface on
+  /// itself there are none.
   template <class Visit>
   void for_each_held(bool ever, Visit&& visit) const {
+    if (self()) return;  // it bears nothing but itself
     if (ever) {
       for (const Surface* surface : {&points_.slave(), &points_.master()})
         for (const Index n : surface->nodes()) visit(n);
@@ -94,7 +96,8 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
     }
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       if (this->touches(k))
-        for (const Index n : stencil(k)) visit(n);
+        for (std::size_t i = stencil_start_[k]; i < stencil_start_[k + 1]; ++i)
+          if (gap_gradient_[i].squaredNorm() > 0) visit(stencil_[i]);
   }
 
  protected:
@@ -108,6 +111,7 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
   SurfaceNodes(const Description& contact, const BodiesType& bodies)
       : Record(contact.name.empty() ? contact.side + " on " + contact.against : contact.name, contact.side, {},
                bodies.side_nodes(contact.side)),
+        against_(contact.against),
         start_depth_(contact.start_depth),
         measures_(bodies.with_side(contact.side,
                                    [&](const auto& body, const std::string& own) {
@@ -119,22 +123,35 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
                 bodies.with_side(contact.side, [](const auto& body, const std::string&) { return body.kinematics(); })),
         place_(static_cast<std::size_t>(bodies.node_count()), no_place),
         coverage_(nodes_.size(), 0.0),
+        converged_coverage_(coverage_),
         covered_(coverage_),
+        followed_(coverage_),
         gap_(covered_),
         node_slip_(covered_),
         means_(nodes_.size()),
         extent_(bodies.extent()) {
     if (!(start_depth_ >= 0)) this->refuse("start_depth must not be negative");
+    points_.allow(start_depth_);
+    if (!self() && share_a_body(bodies, contact.side, contact.against))
+      this->refuse(
+          "sides \"" + contact.side + "\" and \"" + contact.against +
+          "\" are of one body, or of bodies that share nodes: join them to one side that is in contact with itself");
     for (std::size_t k = 0; k < nodes_.size(); ++k) place_[static_cast<std::size_t>(nodes_[k])] = k;
     stencil_start_.assign(nodes_.size() + 1, 0);
   }
 
   void serialize_measures(Archive& archive, const std::string& name) {
     measures_.serialize(archive, name);
-    archive(name + ", coverage", coverage_);
+    archive.check_equal(name + ", against", against_);
+    archive(name + ", coverage", converged_coverage_);
   }
   // Measure behind a unit of penalty at a node, of the part of its area that faces the master (eq. 4.38).
   Real weight(std::size_t k) const { return measures_.tributary()[k] * coverage_[k]; }
+  // The same at the converged state.
+  Real converged_weight(std::size_t k) const { return measures_.tributary()[k] * converged_coverage_[k]; }
+  void commit_positions() { converged_coverage_ = coverage_; }
+  // Reference area that it carries, of the part that faces the master.
+  Real area(std::size_t k) const { return measures_.area(k) * coverage_[k]; }
   // What of a change of the displacements acts on a node: the changes of gap and place, to first order.
   Vec<Real, components> change_at(std::size_t k, const Field& du) const {
     Vec<Real, components> change = Vec<Real, components>::Zero();
@@ -153,6 +170,10 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
   // The gaps of the nodes where they are at the start, with points made for it. Throws std::invalid_argument where a
   // node lies deeper than its neighbours are away.
   [[gnu::cold]] std::vector<SurfacePoint<Real, dim>> start_points(const Field& u, Real) {
+    if (const auto [node, depth] = points_.deepest_start(u); depth > std::max(points_.largest_length(), start_depth_))
+      this->refuse(joined({"node ", std::to_string(node), " starts ", brief(depth),
+                           " deep inside the other body, more than a facet's length; for so deep a fit set "
+                           "start_depth"}));
     update(u, u);
     take_positions(u);
     std::vector<SurfacePoint<Real, dim>> points(nodes_.size());
@@ -172,6 +193,7 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
     covered_.assign(nodes_.size(), 0.0);
     gap_.assign(nodes_.size(), 0.0);
     node_slip_.assign(nodes_.size(), 0.0);
+    followed_.assign(nodes_.size(), 0.0);
     deepest_ = 0;
     bool finite = true;
     for (std::size_t q = 0; q < at_.size(); ++q) {
@@ -187,23 +209,28 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
       for_each_share(q, [&](std::size_t k, Real share) {
         covered_[k] += share;
         gap_[k] += share * at_[q].foot.gap();
+        if (!slip_[q].followed) return;
+        followed_[k] += share;
         node_slip_[k] += share * slip_[q].way;
       });
     }
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       coverage_[k] = faces(k) ? std::min(Real(1), covered_[k] / area_[k]) : 0;
-      gap_[k] = faces(k) ? gap_[k] / covered_[k] : points_.reach();
-      node_slip_[k] = faces(k) ? node_slip_[k] / covered_[k] : 0;
+      gap_[k] = faces(k) ? gap_[k] / covered_[k] : std::numeric_limits<Real>::infinity();
+      node_slip_[k] = slides(k) ? node_slip_[k] / followed_[k] : 0;
     }
     return finite;
   }
-  // Whether a node faces the master at all; its gap, and its slip since the step began.
+  // Whether a node faces the master at all, and whether it did so when the step began; its gap, and its slip since.
   bool faces(std::size_t k) const { return covered_[k] > 1e-9 * area_[k]; }
+  bool slides(std::size_t k) const { return followed_[k] > 1e-9 * area_[k]; }
   Real gap(std::size_t k) const { return gap_[k]; }
   Vec<Real, places> slip(std::size_t k) const { return Vec<Real, places>(node_slip_[k]); }
-  // Sum of the weights of its points, and whether a point's slip counts.
-  Real covered(std::size_t k) const { return covered_[k]; }
-  bool follows(std::size_t q) const { return slip_[q].followed; }
+  // Parts of a share in the means of gap and slip of a node.
+  Real gap_part(std::size_t k, Real share) const { return share / covered_[k]; }
+  Real slip_part(std::size_t q, std::size_t k, Real share) const {
+    return slip_[q].followed && slides(k) ? share / followed_[k] : 0;
+  }
   // Round-off of a gap at the displacements u.
   Real gap_roundoff(const Field& u) const {
     return std::numeric_limits<Real>::epsilon() * (extent_ + u.template lpNorm<Eigen::Infinity>());
@@ -218,18 +245,20 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
     for_each_point([&](std::size_t q, const Closest& at, const std::array<Index, 4>& nodes) {
       for_each_share(q, [&](std::size_t k, Real share) {
         if (!wanted(k)) return;
-        const Real c = share / covered_[k];
-        means_[k].stretch += c * (at.foot.stretch() > 0 ? at.foot.stretch() : 1);
-        for (std::size_t p = 0; p < 2; ++p) {
-          add(means_[k].normal, at.foot.gap_gradient(p), c);
-          if constexpr (with_friction)
-            if (slip_[q].followed) add(means_[k].along, at.foot.place_gradient(p), c);
-        }
+        const Real of_gap = gap_part(k, share);
+        [[maybe_unused]] const Real of_slip = slip_part(q, k, share);
+        means_[k].stretch += of_slip * (at.foot.stretch() > 0 ? at.foot.stretch() : 1);
         for (std::size_t p = 0; p < nodes.size(); ++p) {
           const std::size_t i = entry(k, nodes[p]);
-          add(gap_gradient_[i], at.foot.gap_gradient(p), c);
+          const Point normal = at.foot.gap_gradient(p);
+          add(gap_gradient_[i], normal, of_gap);
+          if (p < 2) add(means_[k].normal, normal, of_gap);
           if constexpr (with_friction)
-            if (slip_[q].followed) add(slip_gradient_[i], at.foot.place_gradient(p), c);
+            if (of_slip > 0) {
+              const Point along = at.foot.place_gradient(p);
+              add(slip_gradient_[i], along, of_slip);
+              if (p < 2) add(means_[k].along, along, of_slip);
+            }
         }
       });
     });
@@ -279,7 +308,7 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
     return f;
   }
   // Length of the master in the metric of the places over its present one, a mean at a node.
-  Real stretch(std::size_t k) const { return means_[k].stretch; }
+  Real stretch(std::size_t k) const { return slides(k) ? means_[k].stretch : 1; }
 
   struct PointSlip {
     Real way = 0;
@@ -289,13 +318,15 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
     Point normal = Point::Zero(), along = Point::Zero();
     Real stretch = 0;
   };
+  std::string against_;
   Real start_depth_;
   NodeMeasures<dim, takes_area> measures_;
   std::vector<Real> area_;  // of the nodes, in the reference configuration
   Points points_;
   std::vector<std::size_t> place_;  // of a node of the scene among the contact nodes
-  // Of the nodes in the last evaluation: the parts and the measures of their areas that face the master, gaps, slips.
-  std::vector<Real> coverage_, covered_, gap_, node_slip_;
+  // Of the nodes in the last evaluation: the parts of their areas that face the master (and the converged ones), the
+  // measures of these and of what slides on it, gaps and slips.
+  std::vector<Real> coverage_, converged_coverage_, covered_, followed_, gap_, node_slip_;
   std::vector<Means> means_;  // over the points of a node
   Real extent_;               // of the bodies
   std::vector<Closest> at_;
@@ -334,6 +365,13 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
       for (int c = 0; c < dim; ++c) visit(i, stencil_[i], c);
   }
   template <class BodiesType>
+  static bool share_a_body(const BodiesType& bodies, const std::string& a, const std::string& b) {
+    const auto first = [&](const std::string& side) {
+      return bodies.with_side(side, [](const auto& body, const std::string&) { return body.first_node(); });
+    };
+    return first(a) == first(b);
+  }
+  template <class BodiesType>
   static Surface surface(const BodiesType& bodies, const std::string& side) {
     return bodies.with_side(side, [&](const auto& body, const std::string& own) {
       auto facets = body.mesh().side(own).facets;
@@ -341,7 +379,7 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
         throw std::invalid_argument("surface contact: side \"" + side + "\" has no facets to touch with");
       for (auto& facet : facets)
         for (Index& n : facet) n += body.first_node();
-      return Surface(std::move(facets), bodies.positions());
+      return Surface(std::move(facets), bodies.positions(), side);
     });
   }
   bool make_stencils() {

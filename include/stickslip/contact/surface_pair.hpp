@@ -104,6 +104,7 @@ class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
         memory.friction.traction *= this->stretch(k);
         memory_.set_trial(k, memory);
       }
+    this->commit_positions();
     Base::commit();
   }
 
@@ -140,7 +141,7 @@ class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
       penalty = penalty_pressure(enforcement_, weight, gap, old);
       const Real pressure = iterating ? pressures_[k].value : penalty;
       node = contact_law<Real, places>(enforcement_, friction_, Friction{}, weight, gap, this->slip(k), old, pressure,
-                                       ev.dt, measures_.area(k), iterating && reversals_.sticks(k, pressure, ev.again));
+                                       ev.dt, this->area(k), iterating && reversals_.sticks(k, pressure, ev.again));
       if (node.cause != FailureCause::none) return node.cause;
     } else {  // past an end of the master: nothing to touch
       node = {};
@@ -235,10 +236,8 @@ class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
       this->for_each_share(q, [&](std::size_t of, Real share) {
         k = of;
         if (!response_[of].touching) return;
-        const Real c = share / this->covered(of);
-        normal -= c * response_[of].pressure;
-        if constexpr (with_friction)
-          if (this->follows(q)) along += c * response_[of].friction.traction[0];
+        normal -= this->gap_part(of, share) * response_[of].pressure;
+        if constexpr (with_friction) along += this->slip_part(q, of, share) * response_[of].friction.traction[0];
       });
       if (normal == 0 && along == 0) return;
       std::array<std::size_t, 4> local;

@@ -57,7 +57,7 @@ class SurfacePoints {
   /// Makes the points for a step from the displacements u, which is guessed to end at the displacements `guess`.
   void update(const Field& u, const Field& guess) {
     master_.take_places(u);
-    reach_ = std::max(slave_.largest_length(), master_.largest_length()) + 2 * relative_motion(u, guess);
+    reach_ = std::max(slave_.largest_length(u), master_.largest_length(u)) + 2 * relative_motion(u, guess);
     const FacetTree tree(master_.size(), [&](std::size_t g) { return master_.box(u, g, 0); });
     candidates_.clear();
     points_.clear();
@@ -123,14 +123,14 @@ class SurfacePoints {
     }
     return best;
   }
-  /// Way of a point's foot on the master since the step began [length]; false where it had none there, or on another
-  /// part of the surface.
+  /// Way of a point's foot on the master since the step began [length]; false where it had none there, or where the
+  /// foot has jumped to another part of the surface.
   bool slip(const SurfacePointOf& point, const Closest& at, Real& way) const {
     if (point.start_facet == Surface::none) return false;
     const auto from = static_cast<std::size_t>(point.start_facet), to = static_cast<std::size_t>(at.facet);
     if (!master_.same_chain(from, to)) return false;
     way = master_.way(to, master_.place(to, at.foot.xi()), point.start_place);
-    return true;
+    return std::abs(way) < reach_;  // else it is on another sheet of a fold
   }
   /// The largest motion of the two surfaces against each other between two states [length].
   Real relative_motion(const Field& from, const Field& to) const {
@@ -144,8 +144,24 @@ class SurfacePoints {
     return minus(high, low).norm();
   }
 
+  /// Lets bodies overlap by a depth, however thin their facets.
+  void allow(Real depth) { allowed_ = depth; }
+  /// The largest length of a facet at the start.
+  Real largest_length() const { return std::max(slave_.largest_length(), master_.largest_length()); }
+  /// The node of one surface that lies deepest inside the other body, and its depth there [length]; 0 where none does.
+  [[gnu::cold]] std::pair<Index, Real> deepest_start(const Field& u) const {
+    std::pair<Index, Real> worst{Surface::none, 0};
+    if (self_) return worst;
+    for (const auto& [nodes, body] : {std::pair{&slave_, &master_}, {&master_, &slave_}}) {
+      const FacetTree tree(body->size(), [&](std::size_t f) { return body->box(u, f, 0); });
+      for (const Index n : nodes->nodes())
+        if (const Real depth = body->depth(u, nodes->position(u, n), tree); depth > worst.second) worst = {n, depth};
+    }
+    return worst;
+  }
   /// A node of one surface that has gone through the other within a step, or through its own; or one of a facet with a
-  /// point that has come to the end of the facets that it may meet, beside one that it should. none if there is none.
+  /// point that lies deeper than contact can tell from the other side of the wall, or has come to the end of the facets
+  /// that it may meet, beside one that it should. none if there is none.
   Index passed(const Field& from, const Field& to) const {
     if (const Index n = passed(slave_, master_, from, to); n != Surface::none) return n;
     if (!self_)
@@ -153,11 +169,13 @@ class SurfacePoints {
     for (std::size_t f = 0; f < slave_.size(); ++f)
       for (const SurfacePointOf& point : points(f)) {
         const Closest at = closest(to, f, point.eta);
+        if (at.facet == Surface::none) continue;
+        if (-at.foot.gap() > 0.9 * deepest(f, static_cast<std::size_t>(at.facet))) return slave_.facet(f)[0];
         if (!at.at_end || at.foot.gap() > slave_.length(f)) continue;
         const auto g = static_cast<std::size_t>(at.facet);
         const Index beyond = at.foot.xi() > 0.5 ? master_.next(g) : master_.previous(g);
         if (contraction(slave_.normal(to, f), master_.normal(to, static_cast<std::size_t>(beyond))) < -0.1 &&
-            !(self_ && slave_.neighbours(f, static_cast<std::size_t>(beyond))))
+            !(self_ && (beyond < static_cast<Index>(f) || slave_.neighbours(f, static_cast<std::size_t>(beyond)))))
           return slave_.facet(f)[0];
       }
     return Surface::none;
@@ -167,8 +185,12 @@ class SurfacePoints {
   Index passed(const Surface& nodes, const Surface& through, const Field& from, const Field& to) const {
     const SurfaceCrossing crossing(through, from, to);
     for (const Index n : nodes.nodes())
-      if (crossing.passed(n, self_ ? through.facet_at(n) : Surface::none)) return n;
+      if (crossing.passed(n)) return n;
     return Surface::none;
+  }
+  // How deep a point of a slave facet may lie behind a master facet.
+  Real deepest(std::size_t f, std::size_t g) const {
+    return std::max(self_ ? Real(0) : 1.2 * allowed_, std::min(master_.deepest(g), slave_.deepest(f)));
   }
   template <class T>
   static std::span<const T> part(const std::vector<T>& all, const std::vector<std::size_t>& start, std::size_t i) {
@@ -195,7 +217,7 @@ class SurfacePoints {
     };
     for (const Point& x : {s[0], s[1], Point(scaled(Point(s[0] + s[1]), Real(0.5)))}) consider(x, m);
     for (const Point& x : m) consider(x, s);
-    return nearest < reach_ && depth < std::min(master_.deepest(g), slave_.deepest(f));
+    return nearest < reach_ && depth < deepest(f, g);
   }
   // Cuts a slave facet where nodes of the master project on it, two Gauss points a piece.
   void cut(const Field& u, std::size_t f) {
@@ -234,7 +256,7 @@ class SurfacePoints {
   std::vector<SurfacePointOf> points_;
   std::vector<Real> cuts_;
   Field rest_;  // no displacement
-  Real reach_ = 0;
+  Real reach_ = 0, allowed_ = 0;
 };
 
 }  // namespace stickslip

@@ -127,21 +127,17 @@ template <class Model>
 inline constexpr bool has_surfaces = SurfacesOf<Model>::active;
 
 namespace detail {
-template <class OfTools, class Surfaces>
+template <class OfTools, class Surfaces, bool active = Surfaces::active>
 struct AllFrictions {
+  using type = OfTools;
+};
+template <class OfTools, class Surfaces>
+struct AllFrictions<OfTools, Surfaces, true> {
   using type = PerContact<OfTools, typename Surfaces::Friction>;
 };
 template <class... OfTools, class Surfaces>
-struct AllFrictions<PerContact<OfTools...>, Surfaces> {
+struct AllFrictions<PerContact<OfTools...>, Surfaces, true> {
   using type = PerContact<OfTools..., typename Surfaces::Friction>;
-};
-template <class OfTools>
-struct AllFrictions<OfTools, NoSurfaceContact> {
-  using type = OfTools;
-};
-template <class... OfTools>
-struct AllFrictions<PerContact<OfTools...>, NoSurfaceContact> {
-  using type = PerContact<OfTools...>;
 };
 }  // namespace detail
 
@@ -372,12 +368,15 @@ concept FrictionNeedsContact =
     !Friction<Model> || !Enforcement<Model> || Model::Enforcement::active || !Model::Friction::active;
 template <class Model>
 concept DirectionsNeedSpace = !Kinematics<Model> || !Friction<Model> || Model::Kinematics::dim == 3 ||
-                              !friction_is_anisotropic<typename Model::Friction>;
+                              !friction_is_anisotropic<FrictionsOf<Model>>;
 template <class Model>
 concept Surfaces = SurfacesPolicy<SurfacesOf<Model>>;
 template <class Model>
 concept SurfacesNeedContact =
     !Surfaces<Model> || !Enforcement<Model> || Model::Enforcement::active || !SurfacesOf<Model>::active;
+template <class Model>
+concept SurfacesInThePlane =
+    !Kinematics<Model> || !Surfaces<Model> || Model::Kinematics::dim == 2 || !SurfacesOf<Model>::active;
 template <class Model>
 concept TimeIntegration = TimeIntegrationPolicy<typename Model::TimeIntegration>;
 template <class Model>
@@ -400,11 +399,12 @@ concept CorrectsCouplings = !HasSymmetry<Model> || !LinearSolver<Model> || !acce
 
 /// True for a model that meets every rule.
 template <class Model>
-inline constexpr bool valid_model = rule::Kinematics<Model>&& rule::Element<Model>&& rule::SameDimension<Model>&&
-    rule::Material<Model>&& rule::Friction<Model>&& rule::Enforcement<Model>&& rule::FrictionNeedsContact<Model>&&
-        rule::Surfaces<Model>&& rule::SurfacesNeedContact<Model>&& rule::DirectionsNeedSpace<Model>&&
-            rule::TimeIntegration<Model>&& rule::Damping<Model>&& rule::DampingNeedsInertia<Model>&&
-                rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>&& rule::CorrectsCouplings<Model>;
+inline constexpr bool valid_model =
+    rule::Kinematics<Model>&& rule::Element<Model>&& rule::SameDimension<Model>&& rule::Material<Model>&&
+        rule::Friction<Model>&& rule::Enforcement<Model>&& rule::FrictionNeedsContact<Model>&& rule::Surfaces<Model>&&
+            rule::SurfacesNeedContact<Model>&& rule::SurfacesInThePlane<Model>&& rule::DirectionsNeedSpace<Model>&&
+                rule::TimeIntegration<Model>&& rule::Damping<Model>&& rule::DampingNeedsInertia<Model>&&
+                    rule::LinearSolver<Model>&& rule::SolverAcceptsSystem<Model>&& rule::CorrectsCouplings<Model>;
 
 /// Instantiate to have a model checked, one sentence for each rule.
 template <class Model>
@@ -435,9 +435,12 @@ struct CheckModel {
   static_assert(rule::Surfaces<Model>,
                 "stickslip: the model's Surfaces does not meet SurfacesPolicy; see docs/policies.md, section Surface "
                 "contact.");
-  static_assert(rule::SurfacesNeedContact<Model>,
+  static_assert(rule::SurfacesNeedContact<Model> && rule::SurfacesInThePlane<Model>,
                 "stickslip: the model has Surfaces but no Enforcement for them; set Enforcement (Penalty) or leave "
                 "Surfaces out.");
+  static_assert(rule::SurfacesInThePlane<Model>,
+                "stickslip: the model has Surfaces in three dimensions, which is not there yet; set Kinematics to "
+                "PlaneStrain or Axisymmetric.");
   static_assert(rule::TimeIntegration<Model>,
                 "stickslip: the model's TimeIntegration does not meet TimeIntegrationPolicy; see docs/policies.md, "
                 "section Time integration.");
