@@ -11,6 +11,7 @@
 #include <stickslip/solve/outer_iteration.hpp>
 #include <stickslip/solve/run_state.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <iterator>
@@ -115,6 +116,7 @@ class March : public RunState {
   std::unique_ptr<StressRecoveries<Bodies<Mechanical>>> stress_;  // where the mesh's error is asked for
   static constexpr bool watches_bending = !std::is_empty_v<ThinCellsOf<Mechanical>>;
   [[no_unique_address]] ThinCellsOf<Mechanical> thin_;
+  static constexpr const char* thin_cells_bend = "thin_cells_bend";
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
   using Gain = std::optional<EnergyGain<Mechanical, Scene<Mechanical>>>;
   [[no_unique_address]] StoredIf<keeps_energy, Gain, March> gain_;  // to see what the time scheme gains
@@ -285,11 +287,10 @@ void March<Model>::retry(Iterate& iterate, Field& u, Real time, Real dt,
 template <class Model>
 void March<Model>::watch_bending([[maybe_unused]] const Field& u) {
   if constexpr (watches_bending) {
-    if (thin_.none() || now_.report.steps % 8 != 0) return;
-    const std::string name = "thin_cells_bend";
-    for (const Warning& told : now_.warnings.list())
-      if (told.name == name) return;
-    if (const std::string text = thin_.bending(u); !text.empty()) warn(name, "", text);
+    if (thin_.told || thin_.none() || now_.report.steps % 8 != 0) return;
+    const std::string text = thin_.bending(u);
+    thin_.told = !text.empty();
+    if (thin_.told) warn(thin_cells_bend, "", text);
   }
 }
 
@@ -323,6 +324,10 @@ template <class Model>
       if (archive.loading()) gained_.clear();
     }
   if (!archive.loading()) return;
+  if constexpr (watches_bending) {
+    const auto& told = now_.warnings.list();
+    thin_.told = std::any_of(told.begin(), told.end(), [](const Warning& w) { return w.name == thin_cells_bend; });
+  }
   newton_.counts = now_.work;
   problem_.system_->timings = now_.report.timings;
 }
