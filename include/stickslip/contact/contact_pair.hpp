@@ -31,7 +31,11 @@ class ContactPair : public ContactHistory<Model, Friction_> {
   /// Throws std::invalid_argument, naming the contact, for parameters that cannot be.
   template <class BodiesType>
   ContactPair(const Contact<Model, Friction>& contact, const BodiesType& bodies)
-      : Base(contact, bodies), gap_roundoff_(nodes_.size(), 0.0), body_stiffness_(gap_roundoff_) {}
+      : Base(contact, bodies),
+        gap_roundoff_(nodes_.size(), 0.0),
+        body_stiffness_(gap_roundoff_),
+        stiffest_(gap_roundoff_),
+        relaxes_(nodes_.size(), false) {}
   ContactPair(const ContactPair&) = delete;
   ContactPair& operator=(const ContactPair&) = delete;
 
@@ -56,6 +60,36 @@ class ContactPair : public ContactHistory<Model, Friction_> {
       this->refuse("the body has no stiffness at any of its nodes; give the penalty another unit");
   }
 
+  /// Begins an iteration: stiff constraints are closed at a part of the stiffness that the body has in its first
+  /// tangent.
+  void begin_iteration() {
+    Base::begin_iteration();
+    std::fill(stiffest_.begin(), stiffest_.end(), 0.0);
+  }
+  /// Measures the body's stiffness at the nodes, before any contact is added to it.
+  template <class Evaluation>
+  void measure_body(const Evaluation& ev) {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      body_stiffness_[k] = ev.matrix.template largest_diagonal<dim>(slots_[k]);
+      if (!(stiffest_[k] > 0))
+        stiffest_[k] = largest_closing_stiffness * (std::max(body_stiffness_[k], Real(0)) + ev.inertia_stiffness);
+    }
+  }
+  /// Predicts the pressures after the change du of the displacements; see ContactHistory::predict. A probe leaves those
+  /// alone whose constraints are not closed at the enforcement's stiffness: their constraint forces follow du.
+  void predict(const Field& du, Real fraction) {
+    Base::predict(du, fraction);
+    for (std::size_t k = 0; fraction == 0 && relaxed_ && k < nodes_.size(); ++k)
+      if (relaxes_[k]) pressures_.predict(k, Point::Zero(), 0);
+  }
+  /// Whether constraints of the last evaluation are closed at less than the enforcement's stiffness.
+  bool relaxed() const { return relaxed_; }
+  /// Adds what the forces that close them have beyond the constraint forces (theory.md, eq. 6.22).
+  void add_closing_forces(Field& forces) const {
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (relaxes_[k]) add_at_node(forces, nodes_[k], Point(scaled(pressures_[k].force, 1 / measured_closing - 1)));
+  }
+
   /// Adds contact forces and their tangent.
   template <class Evaluation>
   Failure evaluate(const Evaluation& ev, Field& forces) {
@@ -63,6 +97,7 @@ class ContactPair : public ContactHistory<Model, Friction_> {
     if (const Failure f = this->not_rigid(pose)) return f;
     this->begin_evaluation();
     dt_ = ev.dt;
+    relaxed_ = false;
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       if (const FailureCause cause = evaluate_node(k, pose, ev, forces); cause != FailureCause::none)
         return {cause, {Location::Kind::contact_node, nodes_[k]}};
@@ -81,18 +116,20 @@ class ContactPair : public ContactHistory<Model, Friction_> {
         square += std::pow(std::min(pressures_[k].gradient.norm(), share * softest) * gap_roundoff_[k], 2);
     return square;
   }
+  /// The largest stiffness of a node that sticks in the last evaluation: its force has the round-off of positions times
+  /// that. One that slides has it in the plane from its bound; in space it turns with its slip [force / length].
+  Real largest_sticking() const {
+    Real largest = 0;
+    for (std::size_t k = 0; with_friction && k < nodes_.size(); ++k)
+      if (this->touches(k) && (dim == 3 || !states_.trial(k).sliding))
+        largest = std::max(largest, this->stick_stiffness(k));
+    return largest;
+  }
   /// The largest stiffness of sticking at any node; 0 without friction [force / length].
   Real largest_stick_stiffness() const {
     Real largest = 0;
     for (std::size_t k = 0; with_friction && k < nodes_.size(); ++k)
       largest = std::max(largest, this->stick_stiffness(k));
-    return largest;
-  }
-  /// The larger of the stiffnesses of contact and sticking at any node [force / length].
-  Real largest_stiffness() const {
-    Real largest = largest_stick_stiffness();
-    for (const Real w : measures_.tributary())
-      largest = std::max(largest, enforcement_.normal_force(Real(-1), w, {}).d_gap);
     return largest;
   }
 
@@ -134,7 +171,8 @@ class ContactPair : public ContactHistory<Model, Friction_> {
     }
     const auto node =
         contact_node<Real, dim>(enforcement_, friction_, Friction{}, measures_.tributary()[k], at, slip, old, pressure,
-                                ev.dt, measures_.area(k), iterating && reversals_.sticks(k, pressure, ev.again));
+                                ev.dt, measures_.area(k), iterating && reversals_.sticks(k, pressure, ev.again),
+                                iterating && stiffest_[k] > 0 ? stiffest_[k] : std::numeric_limits<Real>::infinity());
     if (node.cause != FailureCause::none) return node.cause;
     memory_.set_trial(k, start_.advance(k, node.memory, node.touching, node.pressure.value, memory_, ev.dt));
     const ContactNodeState<dim>& before = states_.converged(k);
@@ -143,6 +181,11 @@ class ContactPair : public ContactHistory<Model, Friction_> {
                                 .touching = node.touching,
                                 .sliding = node.sliding};
     pressures_[k] = node.pressure;
+    relaxes_[k] = node.relaxed;
+    if (node.relaxed) {
+      relaxed_ = true;
+      state.gap += node.pressure.residual / stiffest_[k];  // that of the pressure, which has more digits
+    }
     if constexpr (with_friction) {
       if (iterating && !ev.again) reversals_.note(k, node.friction_force, node.sliding, penalty > 0);
       state.accumulated_slip = node.memory.friction.accumulated_slip;
@@ -182,8 +225,6 @@ class ContactPair : public ContactHistory<Model, Friction_> {
     }
     if (ev.driven) add_at_node(forces, n, Point(product(whole, at_node<dim>(*ev.driven, n))));
     if (ev.want == Want::residual) return FailureCause::none;
-    if (ev.constraint_force)  // before contact is added to it
-      body_stiffness_[k] = ev.matrix.template largest_diagonal<dim>(slots_[k]);
     if constexpr (stores_couplings<Model>) {
       const Block symmetric = ev.want == Want::frictionless_tangent ? whole : turned(pose, node.stiffness);
       ev.matrix.add(slots_[k], symmetric);
@@ -203,6 +244,9 @@ class ContactPair : public ContactHistory<Model, Friction_> {
   }
 
   std::vector<Real> gap_roundoff_, body_stiffness_;  // of touching nodes: of their gaps; of the body there
+  std::vector<Real> stiffest_;  // stiffness at which a node's constraint is closed, at most; 0 before it is known
+  std::vector<bool> relaxes_;   // whether it is closed at that one
+  bool relaxed_ = false;        // whether some are
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dim))>> slots_;
   [[no_unique_address]] StoredIf<stores_couplings<Model>, std::vector<Components>, ContactPair> equations_;
 };

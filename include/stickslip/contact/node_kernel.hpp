@@ -10,6 +10,8 @@
 #include <stickslip/policy/friction.hpp>
 #include <stickslip/tensor/products.hpp>
 
+#include <limits>
+
 namespace stickslip {
 
 /// What a node in frictional contact remembers; of the pressure only if the bound depends on it.
@@ -76,8 +78,16 @@ struct NodeContact {
   FailureCause cause = FailureCause::none;
   bool touching = false;
   bool sliding = false;
+  bool relaxed = false;  ///< whether its constraint is closed at a smaller stiffness than the enforcement's
   Memory memory{};
 };
+
+/// The largest stiffness at which an iteration closes the gap of a node, in parts of the body's there: its round-off is
+/// 2^-30 of the body's, what a step leaves of the gap takes 2^-22 of its change of the pressure (theory.md, eq. 6.21,
+/// 6.23).
+inline constexpr Real largest_closing_stiffness = 0x1p22;
+/// The part of it at which a gap that is left counts as a force: it can make none beyond the body's stiffness times it.
+inline constexpr Real measured_closing = 0x1p-16;
 
 /// The pressure that a gap asks for: -t_N where that presses [force].
 template <class S, int dim, class Enforcement, class Memory>
@@ -103,12 +113,14 @@ Vec<S, surface_coordinates<dim>> along_surface(const Vec<S, surface_coordinates<
 /// Normal contact and friction of one node, in the tool's frame (theory.md, eq. 4.4-4.6, 5.1-5.9 and 6.11). `slipped`
 /// is the change of the place on the tool since the converged state, `pressure` the one that the iteration has; a node
 /// touches while it is positive, or once the gap asks for one. `area` is the reference area that the node carries,
-/// looked at only by a law that asks for it. A sliding node that is `held` is linearised as one that sticks.
+/// looked at only by a law that asks for it. A sliding node that is `held` is linearised as one that sticks. The
+/// constraint of an enforcement stiffer than `stiffest` is closed at that stiffness (eq. 6.22).
 template <class S, int dim, class Enforcement, class Law, class Friction>
 NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     const Enforcement& enforcement, const Law& law, Friction, Real weight, const SurfacePoint<S, dim>& at,
     const Vec<S, surface_coordinates<dim>>& slipped, const NodeMemory<S, dim, Enforcement, Friction>& old,
-    const S& pressure, Real dt, [[maybe_unused]] Real area = 0, [[maybe_unused]] bool held = false) {
+    const S& pressure, Real dt, [[maybe_unused]] Real area = 0, [[maybe_unused]] bool held = false,
+    Real stiffest = std::numeric_limits<Real>::infinity()) {
   NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> out;
   const NormalForce<S> normal = enforcement.normal_force(at.gap, weight, old.enforcement);
   out.touching = value_of(normal.value) <= 0 || value_of(pressure) > 0;
@@ -118,12 +130,13 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
   }
   if (!out.touching) return out;
 
+  out.relaxed = value_of(normal.d_gap) > stiffest;
+  const S slope = out.relaxed ? S(stiffest) : normal.d_gap;
   const S now = value_of(pressure) > 0 ? pressure : S(0);
   Vec<S, dim> by_pressure = scaled(at.normal, S(-1));  // d force / d pressure
   out.force = scaled(by_pressure, now);
   for (int j = 0; j < dim; ++j)
-    for (int i = 0; i < dim; ++i)
-      out.stiffness(i, j) = at.normal[i] * at.normal[j] * normal.d_gap - at.hess_gap(i, j) * now;
+    for (int i = 0; i < dim; ++i) out.stiffness(i, j) = at.normal[i] * at.normal[j] * slope - at.hess_gap(i, j) * now;
 
   if constexpr (Friction::active) {
     using Pressure = typename Friction::Pressure;
@@ -159,7 +172,7 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
       const Vec<S, dim> of_friction = product(at.grad_surface, end.d_pressure);
       add(by_pressure, of_friction);
       if constexpr (!is_symmetrised<Pressure>())
-        out.coupling = product_transposed(of_friction, scaled(at.normal, S(-normal.d_gap)));
+        out.coupling = product_transposed(of_friction, scaled(at.normal, S(-slope)));
     }
 
     out.bound = end.bound;
@@ -175,8 +188,9 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
   if constexpr (is_augmented<Enforcement>) out.memory.enforcement = enforcement.augmented(now);
   out.pressure.value = now;
   out.pressure.residual = -normal.value - now;
-  out.pressure.gradient = scaled(at.normal, S(-normal.d_gap));
-  out.pressure.force = scaled(by_pressure, out.pressure.residual);
+  if (out.relaxed) out.pressure.residual = out.pressure.residual / normal.d_gap * slope;
+  out.pressure.gradient = scaled(at.normal, S(-slope));
+  out.pressure.force = scaled<S>(by_pressure, out.pressure.residual * S(out.relaxed ? measured_closing : 1));
   return out;
 }
 
