@@ -11,6 +11,7 @@
 #include <stickslip/solve/outer_iteration.hpp>
 #include <stickslip/solve/run_state.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <iterator>
@@ -87,10 +88,10 @@ class March : public RunState {
   };
   void advance();
   Attempt attempt(Iterate& iterate, Field& u, Real time, Real dt, bool extrapolated, Failure unsound);
-  Reason doubt(Iterate& iterate, const Field& u, const StepReport& step, const NewtonReport& newton);
+  Reason doubt(Iterate& iterate, Field& u, const StepReport& step, const NewtonReport& newton);
   Reason explain(Failure failure, Real time, Real dt);
   Index iterate_outer(Iterate& iterate, Field& u, Real time, Real dt, NewtonReport& newton);
-  bool lag_is_unstable(Iterate& iterate, const Field& u, Real time, Real dt, const ContactSummary& contact);
+  bool lag_is_unstable(Iterate& iterate, Field& u, Real time, Real dt, const ContactSummary& contact);
   void watch_energy(const StepReport& step);
   void watch_bending(const Field& u);
   void retry(Iterate& iterate, Field& u, Real time, Real dt, NewtonReport& newton) requires has_friction<Model>;
@@ -99,6 +100,19 @@ class March : public RunState {
   static bool finds_no_balance(FailureCause cause) {
     return cause == FailureCause::singular_matrix || cause == FailureCause::stalled ||
            cause == FailureCause::not_converged;
+  }
+  // Whether a step along a solution without digits may have ended so.
+  static bool may_be_roundoff(FailureCause cause) {
+    return finds_no_balance(cause) || cause == FailureCause::element_inverted || cause == FailureCause::not_finite ||
+           cause == FailureCause::material_failed || cause == FailureCause::friction_failed ||
+           cause == FailureCause::tunnelled;
+  }
+  // Whether what is not finite is so at the converged displacements already, with tools, supports and loads at `time`.
+  bool fails_without_iterating(FailureCause cause, Real time, Real dt) {
+    if (cause != FailureCause::not_finite) return false;
+    trial_ = problem_.u_;
+    return problem_.system_->prescribed().apply_constraints(time, trial_) ||
+           problem_.system_->evaluate(problem_.u_, time, dt).cause == cause;
   }
   void require_own() const {
     if (state_ != problem_.revision_)
@@ -115,6 +129,7 @@ class March : public RunState {
   std::unique_ptr<StressRecoveries<Bodies<Mechanical>>> stress_;  // where the mesh's error is asked for
   static constexpr bool watches_bending = !std::is_empty_v<ThinCellsOf<Mechanical>>;
   [[no_unique_address]] ThinCellsOf<Mechanical> thin_;
+  static constexpr const char* thin_cells_bend = "thin_cells_bend";
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
   using Gain = std::optional<EnergyGain<Mechanical, Scene<Mechanical>>>;
   [[no_unique_address]] StoredIf<keeps_energy, Gain, March> gain_;  // to see what the time scheme gains
@@ -236,11 +251,12 @@ Index March<Model>::iterate_outer([[maybe_unused]] Iterate& iterate, [[maybe_unu
 /// Whether a lagging bound feeds back on its own pressure in the converged step (theory.md, eq. 5.16). Asked where the
 /// lag oscillates without falling, and at the end of the run; the step is left as it was.
 template <class Model>
-bool March<Model>::lag_is_unstable(Iterate& iterate, const Field& u, Real time, Real dt,
-                                   const ContactSummary& contact) {
+bool March<Model>::lag_is_unstable(Iterate& iterate, Field& u, Real time, Real dt, const ContactSummary& contact) {
   if constexpr (has_lag<Model>()) {
     if (!options_.detect_lag_instability || has_outer_iterations<Model>()) return false;
     if (!lag_oscillates(contact, time)) return false;
+    // Back at the step's solution, stiff contact has the digits of its pressures from an iterate, not from the gaps.
+    const bool stiff = problem_.system_->closes_stiff_contact();
     bool grows = true;
     {
       LagProbe probe(problem_.pairs_);
@@ -258,7 +274,8 @@ bool March<Model>::lag_is_unstable(Iterate& iterate, const Field& u, Real time, 
       }
     }
     now_.oscillation_count = 0;
-    return problem_.system_->evaluate(u, time, dt) || grows;
+    if (grows) return true;
+    return bool(stiff ? newton_.solve(iterate, u, time, dt).failure : problem_.system_->evaluate(u, time, dt));
   }
   return false;
 }
@@ -285,11 +302,10 @@ void March<Model>::retry(Iterate& iterate, Field& u, Real time, Real dt,
 template <class Model>
 void March<Model>::watch_bending([[maybe_unused]] const Field& u) {
   if constexpr (watches_bending) {
-    if (thin_.none() || now_.report.steps % 8 != 0) return;
-    const std::string name = "thin_cells_bend";
-    for (const Warning& told : now_.warnings.list())
-      if (told.name == name) return;
-    if (const std::string text = thin_.bending(u); !text.empty()) warn(name, "", text);
+    if (thin_.told || thin_.none() || now_.report.steps % 8 != 0) return;
+    const std::string text = thin_.bending(u);
+    thin_.told = !text.empty();
+    if (thin_.told) warn(thin_cells_bend, "", text);
   }
 }
 
@@ -323,6 +339,10 @@ template <class Model>
       if (archive.loading()) gained_.clear();
     }
   if (!archive.loading()) return;
+  if constexpr (watches_bending) {
+    const auto& told = now_.warnings.list();
+    thin_.told = std::any_of(told.begin(), told.end(), [](const Warning& w) { return w.name == thin_cells_bend; });
+  }
   newton_.counts = now_.work;
   problem_.system_->timings = now_.report.timings;
 }
@@ -375,7 +395,7 @@ typename March<Model>::Attempt March<Model>::attempt(Iterate& iterate, Field& u,
 
 /// Whether a step that has converged is no answer; then why.
 template <class Model>
-typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, const Field& u, const StepReport& step,
+typename March<Model>::Reason March<Model>::doubt(Iterate& iterate, Field& u, const StepReport& step,
                                                   const NewtonReport& newton) {
   System<Mechanical>& system = *problem_.system_;
   Diagnosis<Mechanical>& diagnosis = *problem_.diagnosis_;
@@ -421,9 +441,9 @@ template <class Model>
         diagnosis.held_by_friction(problem_.u_, problem_.time_))
       return {{FailureCause::slides, {}}, sliding.empty() ? sliding_contacts(problem_.pairs_) : sliding};
   }
-  if (finds_no_balance(failure.cause) || failure.cause == FailureCause::element_inverted) {
+  if (may_be_roundoff(failure.cause) && !fails_without_iterating(failure.cause, time, dt)) {
     const bool singular = failure.cause == FailureCause::singular_matrix;
-    const std::string source = diagnosis.roundoff_source(problem_.u_, false, singular ? 1e8 : drowned() ? 1e3 : 1e13);
+    const std::string source = diagnosis.roundoff_source(problem_.u_, false, singular ? 1e8 : drowned() ? 1e3 : 1e12);
     if (drowned()) return {{FailureCause::digits_lost, {}}, digits_left(source)};
     if (!source.empty()) return {{FailureCause::digits_lost, {}}, source};
   }

@@ -7,6 +7,7 @@
 /// library itself has no use for it.
 
 #include <stickslip/base/archive.hpp>
+#include <stickslip/base/brief.hpp>
 #include <stickslip/policy/model.hpp>
 
 #include <array>
@@ -31,13 +32,8 @@ struct NotOffered : std::invalid_argument {
 };
 
 namespace detail {
-inline std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 [[noreturn]] inline void refuse(const std::string& what, std::string_view name, const std::vector<std::string>& names) {
-  throw NotOffered(what + ": \"" + std::string(name) + "\" is not offered; these are: " + joined(names));
+  throw NotOffered(what + ": \"" + std::string(name) + "\" is not offered; these are: " + listed(names));
 }
 }  // namespace detail
 
@@ -165,7 +161,7 @@ class SolverList {
     const Entry& e = find(name);
     if (!e.takes(matrix))
       throw NotOffered("linear solver: \"" + std::string(name) + "\" does not take the matrix of this model; " +
-                       "these do: " + detail::joined(names(matrix)));
+                       "these do: " + listed(names(matrix)));
     return e.make[static_cast<std::size_t>(matrix)]();
   }
 
@@ -309,7 +305,7 @@ Result with_solver(const char* friction, const std::string& solver, Run&& run) {
     throw NotOffered("linear solver: \"" + solver + "\" takes " +
                      (symmetric ? "non-symmetric systems, and \"" : "symmetric systems only, and \"") + friction +
                      "\" makes a " + (symmetric ? "symmetric" : "non-symmetric") +
-                     " one; these take it: " + joined(solvers_for<Base, Offered, Friction>()));
+                     " one; these take it: " + listed(solvers_for<Base, Offered, Friction>()));
   }
 }
 }  // namespace detail

@@ -502,29 +502,99 @@ TEST_CASE("forces are right far from the origin, or the coordinates are named") 
   }
   CHECK_FALSE(Squeeze{.depth = 1e-7, .offset = 1e6}.right("digits of the forces are left, the tolerance asks for 5"));
 }
-TEST_CASE("forces at a stiff penalty on an inclined tool are right, or the run is refused as digits_lost") {
-  const auto force = [](Real penalty) {
-    Problem<Model<EigenLdlt>> p({.body = mesh::rectangle({.size = {4, 2}, .cells = {4, 2}}),
+TEST_CASE("forces at stiff penalties on an inclined tool are right, whatever the round-off") {
+  for (unsigned seed = 0; seed < 10; ++seed)
+    for (Real penalty = 1e12; penalty < 1e22; penalty *= 1e3) {
+      CAPTURE(penalty);
+      CAPTURE(seed);
+      Problem<Model<EigenLdlt>> p({.body = disturbed(mesh::rectangle({.size = {4, 2}, .cells = {4, 2}}), seed),
+                                   .material = {.young = 1000, .poisson = 0.3},
+                                   .contacts = {{.side = "bottom",
+                                                 .tool = rigid::line({2, 0}, {1, 0.3}),
+                                                 .enforcement = {.normal = penalty, .tangential = 1000},
+                                                 .name = "slope"}}});
+      p.hold("top", 0).drive("top", 1, [](Real t) { return -0.4 * t; });
+      auto march = p.march({.end = 1, .steps = 10, .smallest = 1e-4, .tolerance = 1e-7});
+      CHECK(march.finish().message() == "completed");
+      CHECK(march.report().rejected_steps == 0);
+      CHECK(p.contact_force("slope")[1] == doctest::Approx(-1851.13766).epsilon(1e-7));
+      CHECK(p.reaction("top", 1) == doctest::Approx(-1851.13766).epsilon(1e-7));
+    }
+}
+TEST_CASE("a block wedged between two inclined tools, at one node by both, is right at stiff penalties") {
+  const auto force = [](Real penalty, unsigned seed) {
+    Problem<Model<EigenLdlt>> p({.body = disturbed(mesh::rectangle({.size = {4, 2}, .cells = {4, 2}}), seed),
                                  .material = {.young = 1000, .poisson = 0.3},
                                  .contacts = {{.side = "bottom",
-                                               .tool = rigid::line({2, 0}, {1, 0.3}),
-                                               .enforcement = {.normal = penalty, .tangential = 1000},
-                                               .name = "slope"}}});
-    p.hold("top", 0).drive("top", 1, [](Real t) { return -0.4 * t; });
-    auto march = p.march({.end = 1, .steps = 10, .smallest = 1e-4});
-    if (!march.finish()) {
-      CHECK(march.outcome().failure.cause == FailureCause::digits_lost);
-      CHECK(march.outcome().detail.find("the penalty of contact \"slope\"") != std::string::npos);
-      CHECK(p.time() == 0);
-      return 0.0;
-    }
-    CHECK(p.contact_force("slope")[1] == doctest::Approx(p.reaction("top", 1)).epsilon(1e-5));
+                                               .tool = rigid::line({0, 0}, {1, 0.1}),
+                                               .enforcement = {.normal = penalty},
+                                               .name = "slope"},
+                                              {.side = "left",
+                                               .tool = rigid::line({0, 0}, {0.1, -1}),
+                                               .enforcement = {.normal = penalty},
+                                               .name = "wall"}}});
+    p.drive("top", 0, [](Real t) { return -0.1 * t; }).drive("top", 1, [](Real t) { return -0.2 * t; });
+    auto march = p.march({.end = 1, .steps = 5, .smallest = 1e-3});
+    CHECK(march.finish().message() == "completed");
+    CHECK(p.contact("slope").states().front().touching);
+    CHECK(p.contact("wall").states().back().touching);
     return p.contact_force("slope")[1];
   };
-  const Real best = force(1e12);
-  CHECK(best == doctest::Approx(-1851.13766).epsilon(1e-6));
-  CHECK(force(1e15) == doctest::Approx(best).epsilon(1e-5));
-  for (const Real penalty : {1e19, 1e21}) CHECK(force(penalty) == 0);
+  const Real soft = force(1e9, 0);
+  for (unsigned seed = 1; seed < 4; ++seed)
+    for (const Real penalty : {1e14, 1e17, 1e20}) CHECK(force(penalty, seed) == doctest::Approx(soft).epsilon(1e-5));
+}
+TEST_CASE("a body that no tool touches is in balance, however stiff sticking would be") {
+  const auto bent = [](Real tangential) {
+    Problem<M> p({.body = mesh::rectangle({.size = {4, 2}, .cells = {6, 3}}),
+                  .material = material<FiniteJ2<PowerHardening>>(),
+                  .contacts = {{.side = "right",
+                                .tool = rigid::line({50, 0}, {0, 1}),
+                                .friction = {.mu = 0.2},
+                                .enforcement = {.normal = 1e5, .tangential = tangential},
+                                .name = "far"}}});
+    p.hold("bottom", 0).hold("bottom", 1).drive("top", 0, [](Real t) { return 0.5 * t; });
+    auto march = p.march({.end = 1, .steps = 4, .tolerance = 1e-9});
+    CHECK(march.finish().message() == "completed");
+    CHECK(p.contact("far").summary().touching == 0);
+    return Field(p.displacement());
+  };
+  const Field soft = bent(1e4);
+  for (const Real tangential : {1e16, 1e24}) CHECK((bent(tangential) - soft).norm() < 1e-7 * soft.norm());
+}
+// Breaks, without a word, where it has been strained.
+struct Brittle : Hencky {
+  using Hencky::respond;
+  template <class S, class TensorPattern>
+  auto respond(const Deformation<S, TensorPattern>& deformation, const State<S, TensorPattern>& old, Real dt) const {
+    Hencky law = *this;
+    if (deformation.log_J != 0) law.young = nan;
+    return law.respond(deformation, old, dt);
+  }
+};
+TEST_CASE("what is not finite only on the way to a solution is told as digits_lost where sticking leaves none") {
+  const auto fails = [](Real tangential, bool breaks) {
+    auto p = std::make_unique<Problem<Model<EigenLdlt, QuasiCoulomb, Brittle>>>(
+        Problem<Model<EigenLdlt, QuasiCoulomb, Brittle>>::Parameters{
+            .body = mesh::rectangle({.size = {4, 2}, .cells = {6, 3}}),
+            .material = {{.young = 69004, .poisson = 0.3}},
+            .contacts = {{.side = "top",
+                          .tool = rigid::disc({2, 7}, 5),
+                          .motion = [=](Real t) { return V(!breaks && t > 0 ? nan : 0.3 * t, -0.4 * t); },
+                          .friction = {.mu = 0.2},
+                          .enforcement = {.normal = 1e5, .tangential = tangential},
+                          .name = "punch"}}});
+    p->hold("bottom", 0).hold("bottom", 1);
+    auto march = p->march({.end = 1, .steps = 10, .smallest = 0.01});
+    CHECK_FALSE(bool(march.finish()));
+    return march.outcome();
+  };
+  CHECK(fails(1e4, true).failure.cause == FailureCause::not_finite);
+  CHECK(fails(1e4, false).failure.cause == FailureCause::not_finite);
+  CHECK(fails(1e20, false).failure.cause == FailureCause::not_finite);
+  const Outcome lost = fails(1e20, true);
+  CHECK(lost.failure.cause == FailureCause::digits_lost);
+  CHECK(lost.detail.find("the tangential penalty of contact \"punch\"") != std::string::npos);
 }
 TEST_CASE("a body without strain is not refused as digits_lost") {
   for (const Real far : {1.0, 1e3, 1e6}) {
@@ -565,9 +635,9 @@ TEST_CASE("a straight strip at 700 times Euler's load reports its negative pivot
     std::vector<Index> pivots;
     for (const auto& step : march) pivots.push_back(step.negative_pivots);
     CHECK(march.outcome().message() == "completed");
-    const Eigen::VectorXd eigenvalues =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(verify::dense(p->system().tangent().stored), Eigen::EigenvaluesOnly)
-            .eigenvalues();
+    const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                            verify::dense(p->system().tangent().stored), Eigen::EigenvaluesOnly)
+                                            .eigenvalues();
     CHECK(pivots.back() == (eigenvalues.array() < 0).count());
     Index changes = 0;
     for (std::size_t k = 0; k < pivots.size(); ++k) changes += pivots[k] != (k > 0 ? pivots[k - 1] : 0) ? 1 : 0;

@@ -55,19 +55,37 @@ MeshType distorted(MeshType mesh, Real amount = 0.06) {
   return mesh;
 }
 
+/// Moves the nodes by up to 1e-9 of the largest coordinate, in another way for each seed and not for 0: another
+/// round-off.
+template <class MeshType>
+MeshType disturbed(MeshType mesh, unsigned seed) {
+  unsigned random = seed;
+  Real largest = 0;
+  for (const auto& x : mesh.nodes) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  for (auto& x : mesh.nodes)
+    for (auto& c : x) {
+      random = random * 1664525u + 1013904223u;
+      if (seed > 0) c += 1e-9 * largest * (Real(random >> 8) / (1 << 23) - 1);
+    }
+  return mesh;
+}
+
 /// A block of 10 x 5, its top held along x and pushed down by `press` onto a disc, which from
-/// time 0.3 on is dragged along with the speed `drag`. `stiffening` multiplies the penalties.
+/// time 0.3 on is dragged along with the speed `drag`. `stiffening` multiplies the penalties, `sticking` the tangential
+/// one if it is given; the mesh is disturbed by `seed`.
 template <class M>
 std::unique_ptr<Problem<M>> press_and_drag(Real mu, Real press = 0.5, Real drag = 1,
-                                           std::array<Index, 2> cells = {8, 4}, Real stiffening = 1) {
-  Contact<M> contact{.side = "bottom",
-                     .tool = rigid::disc({5, -20}, 20),
-                     .motion = [drag](Real t) { return V(drag * std::max(0.0, t - 0.3), 0); },
-                     .enforcement = {.normal = 1e5 * stiffening, .tangential = 2e4 * stiffening},
-                     .name = "tool"};
+                                           std::array<Index, 2> cells = {8, 4}, Real stiffening = 1, Real sticking = 0,
+                                           unsigned seed = 0) {
+  Contact<M> contact{
+      .side = "bottom",
+      .tool = rigid::disc({5, -20}, 20),
+      .motion = [drag](Real t) { return V(drag * std::max(0.0, t - 0.3), 0); },
+      .enforcement = {.normal = 1e5 * stiffening, .tangential = 2e4 * (sticking > 0 ? sticking : stiffening)},
+      .name = "tool"};
   if constexpr (has_friction<M>) contact.friction = {.mu = mu};
   auto problem = std::make_unique<Problem<M>>(
-      typename Problem<M>::Parameters{.body = mesh::rectangle({.size = {10, 5}, .cells = cells}),
+      typename Problem<M>::Parameters{.body = disturbed(mesh::rectangle({.size = {10, 5}, .cells = cells}), seed),
                                       .material = material<typename M::Material>(),
                                       .contacts = {contact}});
   problem->hold("top", 0).drive("top", 1, [press](Real t) { return -press * t; });

@@ -32,15 +32,22 @@ struct Matrix {
   }
 };
 
+/// A run at stiff penalties.
+struct Stiff {
+  stickslip::Outcome end;
+  std::vector<Real> u, force;  ///< of its end
+};
+
 /// What every solver is put through: end displacements of a press-and-drag run, answers to single matrices.
 struct Outcome {
   std::vector<Real> coulomb, quasi;  ///< empty where the solver does not take the system
   Answer positive, indefinite, singular;
   Answer again;  ///< to `positive`, after the other two with the same analysis, while another solver lives
-  std::vector<Answer> judged;     ///< to `doubtful`
-  std::vector<Real> stiff;        ///< end displacements of the run at penalties of 1e9 times the body's stiffness
-  stickslip::Outcome hopeless{};  ///< of the run at penalties of 1e19 times
-  std::vector<double> at_most{};  ///< the same run's field
+  std::vector<Answer> judged;  ///< to `doubtful`
+  std::vector<Real> stiff;     ///< end displacements of the run at penalties of 1e9 times the body's stiffness
+  /// The same run at 1e12 to 1e20 times, with friction and without, and at tangential ones of 1e9 to 1e20 times, on
+  /// meshes each of which has another round-off.
+  std::vector<Stiff> normal{}, sliding{}, sticking{};
 };
 extern const Matrix positive, indefinite, singular;  // the lower triangles
 extern const std::vector<Matrix> doubtful;           // singular to round-off, and nearly so

@@ -168,10 +168,12 @@ void check_dilatations(const A& a) {
   const Vec<Real, A::m> closed = a.closed();
   const auto geometry = a.element.geometry();
   const auto F = a.element.template deformation<Real>(a.u, a.old);
+  Real volume = 0;
+  for (std::size_t p = 0; p < F.size(); ++p) volume += geometry[p].weight;
   for (int k = 0; k < dilatations; ++k) {
     Real projected = 0, seen = 0;
     for (std::size_t p = 0; p < F.size(); ++p) {
-      const Real share = geometry[p].weight / geometry.volume * geometry[p].dilatation[k];
+      const Real share = geometry[p].weight / volume * geometry[p].dilatation[k];
       projected += share * std::log(determinant(F[p]));
       for (int l = 0; l < dilatations; ++l) seen += share * geometry[p].dilatation[l] * closed[stretches + l];
     }

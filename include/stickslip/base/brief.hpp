@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace stickslip {
 
@@ -21,6 +22,12 @@ inline std::string brief(Real x, int precision = 6) {
 [[gnu::noinline, gnu::cold]] inline std::string joined(std::initializer_list<std::string_view> pieces) {
   std::string text;
   for (const std::string_view piece : pieces) text += piece;
+  return text;
+}
+/// Names in a sentence, with commas between them.
+[[gnu::noinline, gnu::cold]] inline std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
 }
 

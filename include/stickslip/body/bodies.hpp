@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stickslip/base/brief.hpp>
 #include <stickslip/base/require.hpp>
 #include <stickslip/body/body.hpp>
 #include <stickslip/mesh/facet.hpp>
@@ -65,10 +66,8 @@ inline std::string own_side(const std::string& body, const std::string& side) {
   return is_side_of(body, side) ? side.substr(body.size() + 1) : side;
 }
 [[noreturn, gnu::cold]] inline void refuse_side(const std::string& side, const std::vector<std::string>& bodies) {
-  std::string known;
-  for (const std::string& body : bodies) known += (known.empty() ? "" : ", ") + body;
   throw std::invalid_argument("there is no side called \"" + side +
-                              "\": sides are named \"body.side\", and the bodies are " + known);
+                              "\": sides are named \"body.side\", and the bodies are " + listed(bodies));
 }
 [[noreturn, gnu::cold]] inline void refuse_name(const std::string& body) {
   throw std::invalid_argument("bodies: " +

@@ -34,6 +34,8 @@ class ThinCells {
   /// It bends where the largest strain of bending is more than this part of the mean strain.
   static constexpr Real notable = 0.5;
 
+  bool told = false;  ///< whether the run has warned of them
+
   bool none() const { return cells_.empty(); }
   /// Adds the cells of a mesh whose first node and cell have these numbers.
   [[gnu::cold]] void add_mesh(const Mesh<dim, nodes>& mesh, Index first_node, Index first_cell) {
@@ -55,13 +57,10 @@ class ThinCells {
         for (int a = 0; a < nodes; ++a) {
           const auto& xi = Cell::corner[static_cast<std::size_t>(a)];
           t.node[static_cast<std::size_t>(a)] = first_node + cell[static_cast<std::size_t>(a)];
-          t.hourglass[a] = xi[static_cast<std::size_t>(along)] * xi[static_cast<std::size_t>(across)] / nodes;
+          t.hourglass[a] = xi[static_cast<std::size_t>(along)] * xi[static_cast<std::size_t>(across)];
         }
-        // Without what an affine motion has of it (theory.md, eq. 2.14).
         Real det;
-        const Mat<Real, nodes, dim> b = product(slope, inverse(base, det));
-        const Vec<Real, dim> moment = transposed_product(X, t.hourglass);
-        add(t.hourglass, Vec<Real, nodes>(product(b, moment)), Real(-1));
+        t.hourglass = hourglass_vectors<nodes, dim, 1>(t.hourglass, slope, inverse(base, det), X);
         cells_.push_back(t);
       }
     }

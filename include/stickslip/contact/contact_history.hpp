@@ -9,6 +9,7 @@
 #include <stickslip/contact/slip_reversals.hpp>
 #include <stickslip/dofs/condensed_unknowns.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace stickslip {
@@ -62,13 +63,17 @@ class ContactHistory : public Nodes {
   /// Begins an iteration: the pressures of the converged state become unknowns of their own.
   void begin_iteration() {
     pressures_.begin();
+    std::fill(stiffest_.begin(), stiffest_.end(), 0.0);
     reversals_.begin_iteration();
     start_.begin_iteration(states_.converged());
   }
   /// Predicts the pressures after the change du of the displacements, with a fraction of their constraint residuals
-  /// closed; with none of it (0) the change is a probe.
+  /// closed; with none of it (0) the change is a probe. That leaves those alone whose constraints are not closed at the
+  /// enforcement's stiffness: their constraint forces follow du.
   void predict(const Field& du, Real fraction) {
     for (std::size_t k = 0; k < nodes_.size(); ++k) pressures_.predict(k, this->change_at(k, du), fraction);
+    for (std::size_t k = 0; fraction == 0 && relaxed_ && k < nodes_.size(); ++k)
+      if (relaxes_[k]) pressures_.predict(k, Vec<Real, Nodes::components>::Zero(), 0);
     reversals_.next_search(fraction == 0);
     if (fraction != 0) start_.predict([this](std::size_t k) { return pressures_.predicted(k); }, memory_);
   }
@@ -184,13 +189,16 @@ class ContactHistory : public Nodes {
     for (std::size_t k = 0; with_friction && k < nodes_.size(); ++k) largest = std::max(largest, stick_stiffness(k));
     return largest;
   }
-  /// The larger of the stiffnesses of contact and sticking at any node [force / length].
-  Real largest_stiffness() const {
-    Real largest = largest_stick_stiffness();
-    for (std::size_t k = 0; k < nodes_.size(); ++k)
-      largest = std::max(largest, enforcement_.normal_force(Real(-1), this->weight(k), {}).d_gap);
+  /// The largest stiffness of a node that sticks in the last evaluation: its force has the round-off of positions times
+  /// that. One that slides has it in the plane from its bound; in space it turns with its slip [force / length].
+  Real largest_sticking() const {
+    Real largest = 0;
+    for (std::size_t k = 0; with_friction && k < nodes_.size(); ++k)
+      if (this->touches(k) && (dim == 3 || !states_.trial(k).sliding)) largest = std::max(largest, stick_stiffness(k));
     return largest;
   }
+  /// Whether constraints of the last evaluation are closed at less than the enforcement's stiffness.
+  bool relaxed() const { return relaxed_; }
 
  protected:
   using Nodes::name_, Nodes::nodes_, Nodes::states_, Nodes::trial_summary_, Nodes::measures_;
@@ -203,12 +211,31 @@ class ContactHistory : public Nodes {
         pressures_(nodes_.size()),
         memory_(nodes_.size()),
         start_(nodes_.size()),
-        reversals_(nodes_.size()) {
+        reversals_(nodes_.size()),
+        body_stiffness_(nodes_.size(), 0.0),
+        stiffest_(body_stiffness_),
+        relaxes_(nodes_.size(), false) {
     if constexpr (with_friction) friction_ = contact.friction;
     if constexpr (requires { enforcement_.validate(); }) enforcement_.validate();
     if constexpr (requires { friction_.validate(); }) friction_.validate();
     if (with_friction && !(enforcement_.stick_stiffness(1) > 0))
       this->refuse("friction needs a positive tangential stiffness");
+  }
+  // Takes what the body has at a node, before any contact is added to it; a stiff constraint is closed at a part of
+  // what it has in the first tangent of an iteration.
+  void take_body_stiffness(std::size_t k, Real stiffness, Real of_inertia) {
+    body_stiffness_[k] = stiffness;
+    if (!(stiffest_[k] > 0)) stiffest_[k] = largest_closing_stiffness * (std::max(stiffness, Real(0)) + of_inertia);
+  }
+  Real stiffest(std::size_t k, bool iterating) const {
+    return iterating && stiffest_[k] > 0 ? stiffest_[k] : std::numeric_limits<Real>::infinity();
+  }
+  // Notes whether the constraint of a node is relaxed, and gives the gap that its pressure has, which has more digits.
+  Real note_relaxed(std::size_t k, bool relaxed, Real gap, Real residual) {
+    relaxes_[k] = relaxed;
+    if (!relaxed) return gap;
+    relaxed_ = true;
+    return gap + residual / stiffest_[k];
   }
   Real stick_stiffness(std::size_t k) const { return enforcement_.stick_stiffness(this->weight(k)); }
 
@@ -218,7 +245,11 @@ class ContactHistory : public Nodes {
   [[no_unique_address]] History<Memory> memory_;
   [[no_unique_address]] typename Skills::template Start<Memory> start_;
   [[no_unique_address]] typename Skills::template Reversals<dim> reversals_;
-  Real dt_ = 0;  // of the last evaluation
+  std::vector<Real> body_stiffness_;  // at the nodes
+  std::vector<Real> stiffest_;        // at which a node's constraint is closed, at most; 0 before it is known
+  std::vector<bool> relaxes_;         // whether it is closed at that one
+  bool relaxed_ = false;              // whether some are, in the last evaluation
+  Real dt_ = 0;                       // of the last evaluation
 };
 
 }  // namespace stickslip

@@ -9,6 +9,8 @@
 #include <stickslip/policy/friction.hpp>
 #include <stickslip/tensor/products.hpp>
 
+#include <limits>
+
 namespace stickslip {
 
 /// What a node in frictional contact remembers; of the pressure only if the bound depends on it.
@@ -72,8 +74,16 @@ struct ContactResponse {
   FailureCause cause = FailureCause::none;
   bool touching = false;
   bool sliding = false;
-  Memory memory{};  ///< the traction in it is t_F, the surface coordinate the old one
+  bool relaxed = false;  ///< whether its constraint is closed at a smaller stiffness than the enforcement's
+  Memory memory{};       ///< the traction in it is t_F, the surface coordinate the old one
 };
+
+/// The largest stiffness at which an iteration closes the gap of a node, in parts of the body's there: its round-off is
+/// 2^-30 of the body's, what a step leaves of the gap takes 2^-22 of its change of the pressure (theory.md, eq. 6.21,
+/// 6.23).
+inline constexpr Real largest_closing_stiffness = 0x1p22;
+/// The part of it at which a gap that is left counts as a force: it can make none beyond the body's stiffness times it.
+inline constexpr Real measured_closing = 0x1p-16;
 
 /// The pressure that a gap asks for: -t_N where that presses [force].
 template <class S, class Enforcement, class Memory>
@@ -86,11 +96,12 @@ S penalty_pressure(const Enforcement& enforcement, Real weight, const S& gap, co
 /// are functions of. `slipped` is the change of its place on the surface since the converged state, `pressure` the one
 /// that the iteration has; a node touches while it is positive, or once the gap asks for one. `area` is the reference
 /// area that the node carries, looked at only by a law that asks for it. A sliding node that is `held` is linearised as
-/// one that sticks.
+/// one that sticks. The constraint of an enforcement stiffer than `stiffest` is closed at that stiffness (eq. 6.22).
 template <class S, int m, class Enforcement, class Law, class Friction, class Memory>
 ContactResponse<S, m, Memory> contact_law(const Enforcement& enforcement, const Law& law, Friction, Real weight,
                                           const S& gap, const Vec<S, m>& slipped, const Memory& old, const S& pressure,
-                                          Real dt, [[maybe_unused]] Real area = 0, [[maybe_unused]] bool held = false) {
+                                          Real dt, [[maybe_unused]] Real area = 0, [[maybe_unused]] bool held = false,
+                                          Real stiffest = std::numeric_limits<Real>::infinity()) {
   ContactResponse<S, m, Memory> out;
   const NormalForce<S> normal = enforcement.normal_force(gap, weight, old.enforcement);
   out.touching = value_of(normal.value) <= 0 || value_of(pressure) > 0;
@@ -101,8 +112,10 @@ ContactResponse<S, m, Memory> contact_law(const Enforcement& enforcement, const 
   if (!out.touching) return out;
   const S now = value_of(pressure) > 0 ? pressure : S(0);
   out.pressure = now;
+  out.relaxed = value_of(normal.d_gap) > stiffest;
+  out.d_gap = out.relaxed ? S(stiffest) : normal.d_gap;
   out.pressure_residual = -normal.value - now;
-  out.d_gap = normal.d_gap;
+  if (out.relaxed) out.pressure_residual = out.pressure_residual / normal.d_gap * out.d_gap;
 
   if constexpr (Friction::active) {
     using Pressure = typename Friction::Pressure;

@@ -38,7 +38,7 @@ class ContactPair : public detail::ToolHistory<Model, Friction_> {
   /// Throws std::invalid_argument, naming the contact, for parameters that cannot be.
   template <class BodiesType>
   ContactPair(const Contact<Model, Friction>& contact, const BodiesType& bodies)
-      : Base(contact, bodies), gap_roundoff_(nodes_.size(), 0.0), body_stiffness_(gap_roundoff_) {}
+      : Base(contact, bodies), gap_roundoff_(nodes_.size(), 0.0) {}
   ContactPair(const ContactPair&) = delete;
   ContactPair& operator=(const ContactPair&) = delete;
 
@@ -65,6 +65,18 @@ class ContactPair : public detail::ToolHistory<Model, Friction_> {
       }
     }
   }
+  /// Measures the body's stiffness at the nodes, before any contact is added to it.
+  template <class Evaluation>
+  void measure_body(const Evaluation& ev) {
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      this->take_body_stiffness(k, ev.matrix.template largest_diagonal<dim>(slots_[k]), ev.inertia_stiffness);
+  }
+  /// Adds what the forces that close relaxed constraints have beyond the constraint forces (theory.md, eq. 6.22).
+  void add_closing_forces(Field& forces) const {
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (relaxes_[k]) add_at_node(forces, nodes_[k], Point(scaled(pressures_[k].force, 1 / measured_closing - 1)));
+  }
+
   /// Adds contact forces and their tangent.
   template <class Evaluation>
   Failure evaluate(const Evaluation& ev, Field& forces) {
@@ -72,6 +84,7 @@ class ContactPair : public detail::ToolHistory<Model, Friction_> {
     if (const Failure f = this->not_rigid(pose)) return f;
     this->begin_evaluation();
     dt_ = ev.dt;
+    relaxed_ = false;
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       if (const FailureCause cause = evaluate_node(k, pose, ev, forces); cause != FailureCause::none)
         return {cause, {Location::Kind::contact_node, nodes_[k]}};
@@ -93,7 +106,8 @@ class ContactPair : public detail::ToolHistory<Model, Friction_> {
 
  private:
   using Base::motion_, Base::nodes_, Base::states_, Base::trial_summary_, Base::measures_, Base::enforcement_,
-      Base::friction_, Base::pressures_, Base::memory_, Base::start_, Base::reversals_, Base::dt_;
+      Base::friction_, Base::pressures_, Base::memory_, Base::start_, Base::reversals_, Base::body_stiffness_,
+      Base::relaxes_, Base::relaxed_, Base::dt_;
   using Block = Mat<Real, dim>;
   using Components = std::array<Index, static_cast<std::size_t>(dim)>;
 
@@ -127,9 +141,9 @@ class ContactPair : public detail::ToolHistory<Model, Friction_> {
         if constexpr (dim == 3) add_surface_curvature(this->tool_, pose.on_tool(x), at);
       }
     }
-    const auto node =
-        contact_node<Real, dim>(enforcement_, friction_, Friction{}, measures_.tributary()[k], at, slip, old, pressure,
-                                ev.dt, measures_.area(k), iterating && reversals_.sticks(k, pressure, ev.again));
+    const auto node = contact_node<Real, dim>(
+        enforcement_, friction_, Friction{}, measures_.tributary()[k], at, slip, old, pressure, ev.dt,
+        measures_.area(k), iterating && reversals_.sticks(k, pressure, ev.again), this->stiffest(k, iterating));
     if (node.cause != FailureCause::none) return node.cause;
     memory_.set_trial(k, start_.advance(k, node.memory, node.touching, node.pressure.value, memory_, ev.dt));
     const ContactNodeState<dim>& before = states_.converged(k);
@@ -138,6 +152,7 @@ class ContactPair : public detail::ToolHistory<Model, Friction_> {
                                 .touching = node.touching,
                                 .sliding = node.sliding};
     pressures_[k] = node.pressure;
+    state.gap = this->note_relaxed(k, node.relaxed, at.gap, node.pressure.residual);
     if constexpr (with_friction) {
       if (iterating && !ev.again) reversals_.note(k, node.friction_force, node.sliding, penalty > 0);
       state.accumulated_slip = node.memory.friction.accumulated_slip;
@@ -177,8 +192,6 @@ class ContactPair : public detail::ToolHistory<Model, Friction_> {
     }
     if (ev.driven) add_at_node(forces, n, Point(product(whole, at_node<dim>(*ev.driven, n))));
     if (ev.want == Want::residual) return FailureCause::none;
-    if (ev.constraint_force)  // before contact is added to it
-      body_stiffness_[k] = ev.matrix.template largest_diagonal<dim>(slots_[k]);
     if constexpr (stores_couplings<Model>) {
       const bool smooth = ev.want == Want::frictionless_tangent;
       ev.matrix.add(slots_[k], smooth ? whole : turned(pose, node.stiffness));
@@ -199,7 +212,7 @@ class ContactPair : public detail::ToolHistory<Model, Friction_> {
     return std::numeric_limits<Real>::epsilon() * reach;
   }
 
-  std::vector<Real> gap_roundoff_, body_stiffness_;  // of touching nodes: of their gaps; of the body there
+  std::vector<Real> gap_roundoff_;  // of touching nodes
   std::vector<std::array<Index, static_cast<std::size_t>(Matrix::block_entries(dim))>> slots_;
   [[no_unique_address]] StoredIf<stores_couplings<Model>, std::vector<Components>, ContactPair> equations_;
 };

@@ -4,6 +4,8 @@
 #include <stickslip/contact/contact_law.hpp>
 #include <stickslip/policy/condensed_unknown.hpp>
 
+#include <limits>
+
 namespace stickslip {
 
 /// What a contact node contributes.
@@ -25,6 +27,7 @@ struct NodeContact {
   FailureCause cause = FailureCause::none;
   bool touching = false;
   bool sliding = false;
+  bool relaxed = false;  ///< whether its constraint is closed at a smaller stiffness than the enforcement's
   Memory memory{};
 
   /// What `stiffness` lacks to the whole: friction that follows the pressure, a dyad (eq. 5.9).
@@ -51,15 +54,17 @@ template <class S, int dim, class Enforcement, class Law, class Friction>
 NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
     const Enforcement& enforcement, const Law& law, Friction friction, Real weight, const SurfacePoint<S, dim>& at,
     const Vec<S, surface_coordinates<dim>>& slipped, const NodeMemory<S, dim, Enforcement, Friction>& old,
-    const S& pressure, Real dt, [[maybe_unused]] Real area = 0, [[maybe_unused]] bool held = false) {
+    const S& pressure, Real dt, [[maybe_unused]] Real area = 0, [[maybe_unused]] bool held = false,
+    Real stiffest = std::numeric_limits<Real>::infinity()) {
   constexpr int m = surface_coordinates<dim>;
   NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> out;
   const auto node =
-      contact_law<S, m>(enforcement, law, friction, weight, at.gap, slipped, old, pressure, dt, area, held);
+      contact_law<S, m>(enforcement, law, friction, weight, at.gap, slipped, old, pressure, dt, area, held, stiffest);
   out.touching = node.touching;
   out.memory = node.memory;
   if constexpr (Friction::active) out.memory.friction.surface_coordinate = at.surface_coordinate;
   if (!out.touching) return out;
+  out.relaxed = node.relaxed;
 
   const S now = node.pressure;
   Vec<S, dim> by_pressure = scaled(at.normal, S(-1));  // d force / d pressure
@@ -93,7 +98,7 @@ NodeContact<S, dim, NodeMemory<S, dim, Enforcement, Friction>> contact_node(
   out.pressure.value = now;
   out.pressure.residual = node.pressure_residual;
   out.pressure.gradient = scaled(at.normal, S(-node.d_gap));
-  out.pressure.force = scaled(by_pressure, out.pressure.residual);
+  out.pressure.force = scaled<S>(by_pressure, out.pressure.residual * S(out.relaxed ? measured_closing : 1));
   return out;
 }
 

@@ -33,8 +33,7 @@ class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
 
   /// Throws std::invalid_argument, naming the contact, for parameters that cannot be.
   template <class Description, class BodiesType>
-  SurfacePair(const Description& contact, const BodiesType& bodies)
-      : Base(contact, bodies), response_(nodes_.size()), body_stiffness_(nodes_.size(), 0.0) {}
+  SurfacePair(const Description& contact, const BodiesType& bodies) : Base(contact, bodies), response_(nodes_.size()) {}
   SurfacePair(const SurfacePair&) = delete;
   SurfacePair& operator=(const SurfacePair&) = delete;
 
@@ -61,18 +60,36 @@ class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
   /// Entries of its couplings at most.
   std::size_t coupling_entries() const { return equations_.size(); }
 
+  /// Measures the body's stiffness at the nodes, before any contact is added to it.
+  template <class Evaluation>
+  void measure_body(const Evaluation& ev) {
+    largest_.assign(nodes_.size(), 0.0);
+    for (const auto& [k, entry] : diagonal_) largest_[k] = std::max(largest_[k], ev.matrix.value(entry));
+    for (std::size_t k = 0; k < nodes_.size(); ++k) this->take_body_stiffness(k, largest_[k], ev.inertia_stiffness);
+  }
+  /// Adds what the forces that close relaxed constraints have beyond the constraint forces (theory.md, eq. 6.22).
+  void add_closing_forces(Field& forces) const {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (!relaxes_[k]) continue;
+      const Vec<Real, components> beyond = scaled(pressures_[k].force, 1 / measured_closing - 1);
+      Vec<Real, places> along;
+      for (int i = 0; i < places; ++i) along[i] = beyond[1 + i];
+      this->scatter(k, beyond[0], along, forces);
+    }
+  }
+
   /// Adds contact forces and their tangent.
   template <class Evaluation>
   Failure evaluate(const Evaluation& ev, Field& forces) {
     this->begin_evaluation();
     dt_ = ev.dt;
+    relaxed_ = false;
     if (!this->take_positions(ev.u)) return {FailureCause::not_finite, {Location::Kind::contact_node, nodes_[0]}};
     if (ev.constraint_force) roundoff_ = this->gap_roundoff(ev.u);
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       if (const FailureCause cause = evaluate_node(k, ev); cause != FailureCause::none)
         return {cause, {Location::Kind::contact_node, nodes_[k]}};
     this->take_gradients([&](std::size_t k) { return response_[k].touching; });
-    if (ev.constraint_force && ev.want != Want::residual) take_body_stiffness(ev.matrix);
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       if (response_[k].touching)
         if (const FailureCause cause = add_node(k, ev, forces); cause != FailureCause::none)
@@ -110,7 +127,8 @@ class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
 
  private:
   using Base::nodes_, Base::states_, Base::trial_summary_, Base::measures_, Base::enforcement_, Base::friction_,
-      Base::pressures_, Base::memory_, Base::start_, Base::reversals_, Base::dt_;
+      Base::pressures_, Base::memory_, Base::start_, Base::reversals_, Base::body_stiffness_, Base::relaxes_,
+      Base::relaxed_, Base::dt_;
   using Response = ContactResponse<Real, places, Memory>;
   static constexpr bool triangle = matrix_storage<Model> == Symmetry::symmetric;
 
@@ -141,24 +159,28 @@ class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
       penalty = penalty_pressure(enforcement_, weight, gap, old);
       const Real pressure = iterating ? pressures_[k].value : penalty;
       node = contact_law<Real, places>(enforcement_, friction_, Friction{}, weight, gap, this->slip(k), old, pressure,
-                                       ev.dt, this->area(k), iterating && reversals_.sticks(k, pressure, ev.again));
+                                       ev.dt, this->area(k), iterating && reversals_.sticks(k, pressure, ev.again),
+                                       this->stiffest(k, iterating));
       if (node.cause != FailureCause::none) return node.cause;
     } else {  // past an end of the master: nothing to touch
       node = {};
       if constexpr (with_friction) node.memory.friction.accumulated_slip = old.friction.accumulated_slip;
     }
     memory_.set_trial(k, start_.advance(k, node.memory, node.touching, node.pressure, memory_, ev.dt));
-    ContactNodeState<dim> state{
-        .gap = gap, .pressure = node.pressure, .touching = node.touching, .sliding = node.sliding};
+    ContactNodeState<dim> state{.gap = this->note_relaxed(k, node.relaxed, gap, node.pressure_residual),
+                                .pressure = node.pressure,
+                                .touching = node.touching,
+                                .sliding = node.sliding};
     auto& unknown = pressures_[k];
     unknown = {};
     unknown.value = node.pressure;
     unknown.residual = node.pressure_residual;
     unknown.gradient[0] = -node.d_gap;
-    unknown.force[0] = -node.pressure_residual;
+    const Real closing = node.pressure_residual * (node.relaxed ? measured_closing : 1);
+    unknown.force[0] = -closing;
     if constexpr (with_friction) {
       if constexpr (follows_pressure())
-        for (int i = 0; i < places; ++i) unknown.force[1 + i] = node.friction.d_pressure[i] * node.pressure_residual;
+        for (int i = 0; i < places; ++i) unknown.force[1 + i] = node.friction.d_pressure[i] * closing;
       if (iterating && !ev.again) {
         Vec<Real, places> slides = Vec<Real, places>::Zero();
         if (node.sliding) slides = node.friction.traction;
@@ -258,18 +280,13 @@ class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
         }
     });
   }
-  // What the body has at the nodes, before contact is added to it.
-  void take_body_stiffness(const Matrix& matrix) {
-    std::fill(body_stiffness_.begin(), body_stiffness_.end(), 0.0);
-    for (const auto& [k, entry] : diagonal_) body_stiffness_[k] = std::max(body_stiffness_[k], matrix.value(entry));
-  }
 
   std::vector<Response> response_;
   std::vector<Index> equations_, slots_;  // of the entries of stencils, by component; of the blocks over them
   std::vector<std::size_t> slot_start_;
   std::vector<std::pair<std::size_t, Index>> diagonal_;  // node and entry of its free components
-  std::vector<Real> body_stiffness_;
-  Real roundoff_ = 0;  // of a gap
+  std::vector<Real> largest_;                            // of the body at the nodes
+  Real roundoff_ = 0;                                    // of a gap
 };
 
 }  // namespace stickslip

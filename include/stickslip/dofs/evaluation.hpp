@@ -17,7 +17,8 @@ struct Evaluation {
   bool again = false;                 ///< at the iterate of the last evaluation, to have the tangent as well
   Field* constraint_force = nullptr;  ///< within an iteration, at the condensed unknowns: takes their constraint forces
   Matrix& matrix;
-  Couplings_& couplings;  ///< of sliding nodes, where they are stored apart from the matrix
+  Couplings_& couplings;       ///< of sliding nodes, where they are stored apart from the matrix
+  Real inertia_stiffness = 0;  ///< that inertia adds to the matrix at most, in parts of contact's share of it
 };
 
 }  // namespace stickslip

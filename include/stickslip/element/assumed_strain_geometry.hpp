@@ -31,7 +31,6 @@ struct AssumedStrainGeometry {
   Mat<Real, nodes, modes> hourglass;  ///< gamma_Ia [-]
   Mat<Real, dim> base;                ///< columns g_j: derivatives of the place at the centre [length]
   Mat<Real, dim> dual;                ///< its inverse, rows g^j [1/length]
-  Real volume = 0;                    ///< [length^3]
   Real steepest = 0;                  ///< largest component of a shape function's gradient [1/length]
   std::array<Point, points> at;
 
@@ -47,6 +46,7 @@ struct AssumedStrainGeometry {
     const auto rule = Cell::quadrature();
     std::array<Mat<Real, nodes, dim>, points> along;  // grad N_a . g_j
     gradient.setZero();
+    Real volume = 0;
     for (std::size_t p = 0; p < points; ++p) {
       const auto plain = point_geometry<Kinematics, Cell>(kinematics, X, rule[p].xi, rule[p].weight);
       at[p].weight = plain.weight;
@@ -59,11 +59,9 @@ struct AssumedStrainGeometry {
     gradient = scaled(gradient, 1 / volume);
     for (Point& point : at) point.share = point.weight / volume;
 
-    // Products of reference coordinates at the nodes, without what a linear field has of them.
     Mat<Real, nodes, modes> h;
     for (int a = 0; a < nodes; ++a) h.row(a) = products(Cell::corner[static_cast<std::size_t>(a)]);
-    const Mat<Real, nodes, dim> b = product(Cell::gradient(centre), dual);
-    hourglass = scaled(minus(h, product(b, transposed_product(X, h))), 1. / nodes);
+    hourglass = hourglass_vectors<nodes, dim, modes>(h, Cell::gradient(centre), dual, X);
 
     // The variation of h_I: grad N_a - <grad N_a> = sum_I gamma_Ia grad h_I', and h^T gamma = 1.
     for (std::size_t p = 0; p < points; ++p) at[p].q = transposed_product(h, minus(along[p], gradient));

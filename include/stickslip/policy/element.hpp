@@ -53,6 +53,15 @@ PointGeometry<Kinematics, Cell::nodes> point_geometry(const Kinematics& kinemati
   return point;
 }
 
+/// Hourglass vectors: products `h` of reference coordinates at the nodes, one a column, without what an affine motion
+/// has of them (theory.md, eq. 2.14). `slope` and `dual` are the gradients of the shape functions and the inverse of
+/// the derivatives of the place, at the centre of a cell whose nodes are at X.
+template <int nodes, int dim, int modes>
+Mat<Real, nodes, modes> hourglass_vectors(const Mat<Real, nodes, modes>& h, const Mat<Real, nodes, dim>& slope,
+                                          const Mat<Real, dim>& dual, const Mat<Real, nodes, dim>& X) {
+  return scaled(minus(h, product(product(slope, dual), transposed_product(X, h))), 1. / nodes);
+}
+
 namespace detail {
 template <class E>
 constexpr auto force_quadrature() {

@@ -55,10 +55,11 @@ struct RoundoffSource {
     words = "the bulk modulus" + (body.empty() ? "" : " of body \"" + body + "\"") + " is " + brief(ratio, 2) +
             " times the shear modulus, at a Poisson's ratio " + brief(0.5 - nu, 2) + " below 0.5";
   }
-  [[gnu::cold]] void consider_penalty(Real ratio, const std::string& contact) {
+  [[gnu::cold]] void consider_sticking(Real ratio, const std::string& contact) {
     if (!(ratio > worst)) return;
     worst = ratio;
-    words = "the penalty of contact \"" + contact + "\" is " + brief(ratio, 2) + " times the body's stiffness";
+    words =
+        "the tangential penalty of contact \"" + contact + "\" is " + brief(ratio, 2) + " times the body's stiffness";
   }
   [[gnu::cold]] static std::string coordinates(Real reach, Real extent) {
     return "coordinates of up to " + brief(reach, 2) + ", of a body that measures " + brief(extent, 2) +
@@ -168,7 +169,7 @@ class Diagnosis : public detail::PartSupports<typename Model::Kinematics> {
     const Real stiffness = has_contact<Model> ? system_.body_stiffness(u) : 0;
     if (stiffness > 0)
       for_each_contact(system_.pairs(), [&](const auto& pair) {
-        source.consider_penalty(pair.largest_stiffness() / stiffness, pair.name());
+        source.consider_sticking(pair.largest_stick_stiffness() / stiffness, pair.name());
       });
     return source.words;
   }

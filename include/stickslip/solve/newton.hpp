@@ -282,7 +282,7 @@ class Newton {
         if (condition > FactorDigits::limit) return {FailureCause::singular_matrix, {}};
       }
     const Index corrections = corrections_so_far();
-    const bool solved = substitute(system, system.forces().residual, step_);
+    const bool solved = substitute(system, system.right_hand_side(), step_);
     counts.corrections += corrections_so_far() - corrections;
     const Space& space = system.space();
     if (!solved || !std::isfinite(space.norm(step_))) return {FailureCause::singular_matrix, {}};
@@ -318,7 +318,7 @@ class Newton {
     iterate.set_step(0);
     // With the tangent, which the search has overwritten: solvers iterate on it, or refine their solutions.
     if (const Failure f = evaluate(iterate, u, time, dt, Want::tangent)) return f;
-    probes_.residual = system.forces().residual;
+    probes_.residual = system.right_hand_side();
     krylov.begin(probes_.residual);
     while (krylov.count() < most && space.norm(krylov.residual()) > tolerance * space.norm(probes_.residual)) {
       Field& z = krylov.step();
@@ -337,7 +337,7 @@ class Newton {
       iterate.set_step(0);
       if (failure) break;
       ++counts.corrections;
-      krylov.response() = (probes_.residual - system.forces().residual) / part;
+      krylov.response() = (probes_.residual - system.right_hand_side()) / part;
       if (!krylov.add()) break;
     }
     u = start_;

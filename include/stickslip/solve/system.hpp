@@ -164,6 +164,10 @@ class System : detail::Balance {
       throw std::invalid_argument(
           "linear constraint: a solver that corrects a symmetric factor for sliding nodes takes none; take a general "
           "solver");
+    if constexpr (has_contact<Model>) {
+      closing_.force.setZero(dofs_.components());
+      closing_.right_hand_side.setZero(dofs_.unknowns());
+    }
     connect();
   }
 
@@ -214,13 +218,27 @@ class System : detail::Balance {
   }
   /// Those of the last evaluation.
   const NodalForces& forces() const { return forces_; }
+  /// What the tangent's solution is of: the residual, with what closing stiff contact takes beyond the constraint
+  /// forces (theory.md, eq. 6.22).
+  const Field& right_hand_side() const {
+    if constexpr (has_contact<Model>)
+      if (closing_.any) return closing_.right_hand_side;
+    return forces_.residual;
+  }
+  /// Whether there is such contact in the last evaluation: then its pressures have more digits than the gaps.
+  bool closes_stiff_contact() const {
+    if constexpr (has_contact<Model>) return closing_.any;
+    return false;
+  }
   /// Bound of the residual that round-off alone leaves: the largest stiffness of the body and of sticking times the
   /// extent of the coordinates (theory.md, eq. 6.3).
   Real roundoff(const Field& u) const {
     const Real moved = space_.max(u.head(bodies_.node_count() * dim).template lpNorm<Eigen::Infinity>()),
                extent = bodies_.extent();
-    Real force = stiffness_ * (exact_strains && !has_contact<Model> ? moved : moved + extent);
-    if (has_contact<Model>) force += stick_stiffness_ * (moved + extent);
+    Real force = (stiffness_ + inertia_stiffness_) * (exact_strains && !has_contact<Model> ? moved : moved + extent);
+    Real sticking = 0;
+    for_each_contact(pairs_, [&](const auto& pair) { sticking = std::max(sticking, pair.largest_sticking()); });
+    force += space_.max(sticking) * (moved + extent);
     return 16 * std::numeric_limits<Real>::epsilon() * force * std::sqrt(space_.sum(Real(dofs_.unknowns())));
   }
 
@@ -312,14 +330,13 @@ class System : detail::Balance {
   Failure evaluate(const EvaluationType& ev) {
     if (const Failure f = compute_penalties(ev.u, true)) return f;
     has_tangent_ = evaluated_ = false;
+    if constexpr (has_contact<Model>) closing_.any = false;
     for_each_contact(pairs_, [](auto& pair) { pair.discard_trial(); });
     if (const Failure f = assemble(ev)) return f;
     if constexpr (has_inertia<Model>) {
       const Stopwatch watch(timings.assembly);
       inertia_.apply(ev.u, forces_.internal, forces_.external, forces_.balance,
                      ev.want == Want::residual ? nullptr : &matrix_);
-      if (!with_mass_) stiffness_ += inertia_.stiffness();
-      with_mass_ = true;
       couplings_.scale(inertia_.contact_share());
     }
     if (const Failure f = take_residual()) return f;
@@ -357,6 +374,7 @@ class System : detail::Balance {
     {
       const Stopwatch watch(timings.contact);
       Failure failure;
+      if (with_tangent && ev.constraint_force) for_each_contact(pairs_, [&](auto& pair) { pair.measure_body(ev); });
       for_each_contact(pairs_, [&](auto& pair) {
         if (!failure) failure = pair.evaluate(ev, forces_.contact);
       });
@@ -364,15 +382,18 @@ class System : detail::Balance {
     }
     return sum_up(ev.time, has_inertia<Model>, ev.constraint_force);
   }
+  void close_stiff_contact() requires has_contact<Model> {
+    for_each_contact(pairs_, [&](const auto& pair) { closing_.any = closing_.any || pair.relaxed(); });
+    if (!closing_.any) return;
+    closing_.force.setZero();
+    for_each_contact(pairs_, [&](const auto& pair) { pair.add_closing_forces(closing_.force); });
+    dofs_.gather(closing_.force, closing_.right_hand_side);
+    closing_.right_hand_side = forces_.residual + inertia_.contact_share() * closing_.right_hand_side;
+  }
   // The stiffnesses that round-off meets, once an iteration.
   void measure_stiffness() {
     measured_ = true;
     stiffness_ = space_.max(matrix_.largest());
-    stick_stiffness_ = 0;
-    for_each_contact(pairs_, [&](const auto& pair) {
-      stick_stiffness_ = std::max(stick_stiffness_, pair.largest_stick_stiffness());
-    });
-    stick_stiffness_ = space_.max(stick_stiffness_);
   }
   template <class... Types>
   static constexpr bool take_deformation(BodyTypes<Types...>) {
@@ -387,8 +408,13 @@ class System : detail::Balance {
   Matrix matrix_;
   CondensedMatrix<matrix_storage<Model>> condensed_;
   [[no_unique_address]] Couplings couplings_;
-  Real stiffness_ = 0, stick_stiffness_ = 0;   // of the body, its inertia included, and of sticking [force / length]
-  bool measured_ = false, with_mass_ = false;  // whether they are those of this iteration, and with inertia
+  Real stiffness_ = 0, inertia_stiffness_ = 0;  // of the body and of its inertia [force / length]
+  bool measured_ = false;                       // whether they are those of this iteration
+  struct Closing {
+    Field force{}, right_hand_side{};
+    bool any = false;  // in the last evaluation
+  };
+  [[no_unique_address]] StoredIf<has_contact<Model>, Closing, System> closing_{};  // of stiff contact, in an iteration
   bool has_tangent_ = false, evaluated_ = false;
   bool plain_ = false;  // the condensed unknowns were overwritten by an evaluation outside the iteration
   Index pattern_revision_;
@@ -407,7 +433,8 @@ class System<Model>::Iterate {
   }
   /// Begins again at the converged state's values of the condensed unknowns.
   void restart() {
-    system_.measured_ = system_.with_mass_ = system_.plain_ = false;
+    system_.measured_ = system_.plain_ = false;
+    system_.inertia_stiffness_ = 0;
     system_.bodies_.begin_iteration();
     system_.for_each_term([](auto& term) { term.begin_iteration(); });
     for_each_contact(system_.pairs_, [](auto& pair) { pair.begin_iteration(); });
@@ -456,8 +483,12 @@ class System<Model>::Iterate {
     assert(!system_.plain_ && "Iterate::evaluate needs Iterate::restart after a System::evaluate within the iteration");
     System& s = system_;
     s.constraint_force_.setZero();
-    if (const Failure f = s.evaluate({u, time, dt, want, driven, again, &s.constraint_force_, s.matrix_, s.couplings_}))
+    if constexpr (has_inertia<Model>)
+      if (!(s.inertia_stiffness_ > 0)) s.inertia_stiffness_ = s.inertia_.stiffness();
+    if (const Failure f = s.evaluate({u, time, dt, want, driven, again, &s.constraint_force_, s.matrix_, s.couplings_,
+                                      s.inertia_stiffness_ / s.inertia_.contact_share()}))
       return f;
+    if constexpr (has_contact<Model>) s.close_stiff_contact();
     Real constraints = s.bodies_.constraint_merit();
     s.for_each_term([&](const auto& term) { constraints += term.constraint_merit(); });
     if constexpr (weighs_body) constraints *= std::pow(s.inertia_.body_share(), 2);
