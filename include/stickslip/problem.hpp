@@ -4,6 +4,7 @@
 #include <stickslip/base/brief.hpp>
 #include <stickslip/body/stress_recovery.hpp>
 #include <stickslip/body/thin_cells.hpp>
+#include <stickslip/body/varied_strain.hpp>
 #include <stickslip/mesh/coincident_nodes.hpp>
 #include <stickslip/scene.hpp>
 #include <stickslip/solve/energy_gain.hpp>
@@ -115,6 +116,8 @@ class March : public RunState {
   std::unique_ptr<StressRecoveries<Bodies<Mechanical>>> stress_;  // where the mesh's error is asked for
   static constexpr bool watches_bending = !std::is_empty_v<ThinCellsOf<Mechanical>>;
   [[no_unique_address]] ThinCellsOf<Mechanical> thin_;
+  static constexpr bool watches_strain = !std::is_empty_v<VariedStrainOf<Mechanical>>;
+  [[no_unique_address]] VariedStrainOf<Mechanical> varied_;
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
   using Gain = std::optional<EnergyGain<Mechanical, Scene<Mechanical>>>;
   [[no_unique_address]] StoredIf<keeps_energy, Gain, March> gain_;  // to see what the time scheme gains
@@ -172,6 +175,13 @@ template <class Model>
       if constexpr (locks_in_bending<Element> &&
                     std::same_as<ThinCells<typename Element::Cell>, ThinCellsOf<Mechanical>>)
         thin_.add_mesh(body.mesh(), body.first_node(), body.first_cell());
+    });
+  if constexpr (watches_strain)
+    problem.bodies_.for_each([&](const auto& body) {
+      using Element = typename std::remove_cvref_t<decltype(body)>::Element;
+      if constexpr (locks_in_varied_strain<Element> &&
+                    std::same_as<VariedStrain<typename Element::Cell>, VariedStrainOf<Mechanical>>)
+        varied_.add_mesh(body.mesh(), body.first_node(), body.first_cell());
     });
   if (options.mesh_error_interval > 0)
     stress_ = std::make_unique<StressRecoveries<Bodies<Mechanical>>>(problem.bodies_);
@@ -281,15 +291,22 @@ void March<Model>::retry(Iterate& iterate, Field& u, Real time, Real dt,
   newton = again;
 }
 
-/// Warns once of a thin cell that bends although its element locks in bending. Looks at every eighth step.
+/// Warns once of a thin cell that bends although its element locks in bending, and of a cell whose strain varies more
+/// than its element can bear. Looks for the former at every eighth step.
 template <class Model>
 void March<Model>::watch_bending([[maybe_unused]] const Field& u) {
+  const auto told = [this](const char* name) {
+    for (const Warning& warning : now_.warnings.list())
+      if (warning.name == name) return true;
+    return false;
+  };
+  if constexpr (watches_strain)
+    if (!told("varied_strain"))
+      if (const std::string text = varied_.lost(u); !text.empty()) warn("varied_strain", "", text);
   if constexpr (watches_bending) {
     if (thin_.none() || now_.report.steps % 8 != 0) return;
-    const std::string name = "thin_cells_bend";
-    for (const Warning& told : now_.warnings.list())
-      if (told.name == name) return;
-    if (const std::string text = thin_.bending(u); !text.empty()) warn(name, "", text);
+    if (told("thin_cells_bend")) return;
+    if (const std::string text = thin_.bending(u); !text.empty()) warn("thin_cells_bend", "", text);
   }
 }
 

@@ -141,4 +141,39 @@ TEST_CASE("a block of elements that bend has no negative pivot under compression
   CHECK(first_negative(negative_pivots<Bends>(16)) == body);
   CHECK(first_negative(negative_pivots<Bends>(4)) >= body);
 }
+
+// A block between plates that hold it sideways, squeezed by steps of 2.5 %: its force over that of Q1/P0, and the step
+// that warns of its strain.
+std::pair<Real, Index> confined(Index cells, Real poisson, Index steps) {
+  const auto squeezed = [&]<class Element>(std::type_identity<Element>, Index& warned) {
+    Problem<Lone<EigenLdlt, Hencky, PlaneStrain, Element>> p(
+        {.body = mesh::rectangle({.cells = {cells, cells}}), .material = {.young = 1000, .poisson = poisson}});
+    p.hold("bottom", 0).hold("bottom", 1).hold("top", 0).drive("top", 1, [](Real t) { return -0.025 * t; });
+    auto march = p.march({.end = Real(steps), .steps = steps});
+    const Outcome outcome = march.finish();
+    CHECK_MESSAGE(outcome, outcome.message());
+    for (const Warning& w : march.warnings())
+      if (w.name == "varied_strain") warned = w.step;
+    return p.reaction("top", 1);
+  };
+  Index warned = 0, never = 0;
+  const Real force = squeezed(std::type_identity<Bends>{}, warned), mean = squeezed(std::type_identity<Mean>{}, never);
+  CHECK(never == 0);
+  return {force / mean, warned};
+}
+
+TEST_CASE("a confined block of elements that bend says when it locks, and only then") {
+  // The limit of the element, as a program without this library finds it too: nearly incompressible and coarse.
+  const auto [coarse, warned] = confined(4, 0.4999, 18);
+  MESSAGE("4 x 4: " << coarse << ", warned in step " << warned);
+  CHECK(coarse > 10);
+  CHECK(warned == 13);
+  CHECK(std::abs(confined(4, 0.4999, 13).first - 1.3) < 0.1);
+  const auto [fine, silent] = confined(16, 0.4999, 10);
+  CHECK(std::abs(fine - 1) < 0.02);
+  CHECK(silent == 0);
+  const auto [of_compressible, none] = confined(4, 0.3, 18);
+  CHECK(std::abs(of_compressible - 1) < 0.02);
+  CHECK(none == 0);
+}
 }  // namespace hourglass
