@@ -91,7 +91,8 @@ const std::array<std::pair<Real, Real>, 4> shapes{{{1, 1}, {1, 0.25}, {0.25, 1},
 const FiniteJ2<LinearHardening> soft{.young = 1000, .poisson = 0.3, .hardening = {.yield = 2, .modulus = 5}};
 
 TEST_CASE("an element that bends stays stable when it is compressed to 0.3 of its height") {
-  for (const auto& [width, height] : shapes) {
+  for (const auto& shape : shapes) {
+    const Real width = shape.first, height = shape.second;  // copies: bindings cannot be captured
     CAPTURE(width);
     CAPTURE(height);
     for (const Real poisson : {0.3, 0.4999})
@@ -107,7 +108,8 @@ TEST_CASE("an element that bends stays stable when it is compressed to 0.3 of it
 TEST_CASE("an element that bends becomes unstable in tension where its material does, at Considere's stretch") {
   // Plane strain: the stress 2/sqrt(3) (Y + h e) meets its slope 4/3 h, in the stretch along y.
   const Real slope = 4. / 3 * 5, considere = std::exp((slope - 2 / std::sqrt(3.) * 2) / slope);
-  for (const auto& [width, height] : shapes) {
+  for (const auto& shape : shapes) {
+    const Real width = shape.first, height = shape.second;  // copies: bindings cannot be captured
     CAPTURE(width);
     CAPTURE(height);
     const auto stretch = instability<Bends>(soft, width, height, 2.5);
