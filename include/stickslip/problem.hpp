@@ -4,6 +4,7 @@
 #include <stickslip/base/brief.hpp>
 #include <stickslip/body/stress_recovery.hpp>
 #include <stickslip/body/thin_cells.hpp>
+#include <stickslip/body/varied_strain.hpp>
 #include <stickslip/mesh/coincident_nodes.hpp>
 #include <stickslip/scene.hpp>
 #include <stickslip/solve/energy_gain.hpp>
@@ -130,6 +131,9 @@ class March : public RunState {
   static constexpr bool watches_bending = !std::is_empty_v<ThinCellsOf<Mechanical>>;
   [[no_unique_address]] ThinCellsOf<Mechanical> thin_;
   static constexpr const char* thin_cells_bend = "thin_cells_bend";
+  static constexpr bool watches_strain = !std::is_empty_v<VariedStrainOf<Mechanical>>;
+  [[no_unique_address]] VariedStrainOf<Mechanical> varied_;
+  static constexpr const char* varied_strain = "varied_strain";
   static constexpr bool keeps_energy = has_inertia<Model> && TellsEnergies<Mechanical>;
   using Gain = std::optional<EnergyGain<Mechanical, Scene<Mechanical>>>;
   [[no_unique_address]] StoredIf<keeps_energy, Gain, March> gain_;  // to see what the time scheme gains
@@ -187,6 +191,13 @@ template <class Model>
       if constexpr (locks_in_bending<Element> &&
                     std::same_as<ThinCells<typename Element::Cell>, ThinCellsOf<Mechanical>>)
         thin_.add_mesh(body.mesh(), body.first_node(), body.first_cell());
+    });
+  if constexpr (watches_strain)
+    problem.bodies_.for_each([&](const auto& body) {
+      using Element = typename std::remove_cvref_t<decltype(body)>::Element;
+      if constexpr (locks_in_varied_strain<Element> &&
+                    std::same_as<VariedStrain<typename Element::Cell>, VariedStrainOf<Mechanical>>)
+        varied_.add_mesh(body.mesh(), body.first_node(), body.first_cell());
     });
   if (options.mesh_error_interval > 0)
     stress_ = std::make_unique<StressRecoveries<Bodies<Mechanical>>>(problem.bodies_);
@@ -298,9 +309,16 @@ void March<Model>::retry(Iterate& iterate, Field& u, Real time, Real dt,
   newton = again;
 }
 
-/// Warns once of a thin cell that bends although its element locks in bending. Looks at every eighth step.
+/// Warns once of a thin cell that bends although its element locks in bending, and of a cell whose strain varies more
+/// than its element can bear. Looks for the former at every eighth step.
 template <class Model>
 void March<Model>::watch_bending([[maybe_unused]] const Field& u) {
+  if constexpr (watches_strain)
+    if (!varied_.told) {
+      const std::string text = varied_.lost(u);
+      varied_.told = !text.empty();
+      if (varied_.told) warn(varied_strain, "", text);
+    }
   if constexpr (watches_bending) {
     if (thin_.told || thin_.none() || now_.report.steps % 8 != 0) return;
     const std::string text = thin_.bending(u);
@@ -339,10 +357,12 @@ template <class Model>
       if (archive.loading()) gained_.clear();
     }
   if (!archive.loading()) return;
-  if constexpr (watches_bending) {
-    const auto& told = now_.warnings.list();
-    thin_.told = std::any_of(told.begin(), told.end(), [](const Warning& w) { return w.name == thin_cells_bend; });
-  }
+  [[maybe_unused]] const auto told = [this](const char* name) {
+    const auto& list = now_.warnings.list();
+    return std::any_of(list.begin(), list.end(), [&](const Warning& w) { return w.name == name; });
+  };
+  if constexpr (watches_bending) thin_.told = told(thin_cells_bend);
+  if constexpr (watches_strain) varied_.told = told(varied_strain);
   newton_.counts = now_.work;
   problem_.system_->timings = now_.report.timings;
 }

@@ -91,7 +91,8 @@ const std::array<std::pair<Real, Real>, 4> shapes{{{1, 1}, {1, 0.25}, {0.25, 1},
 const FiniteJ2<LinearHardening> soft{.young = 1000, .poisson = 0.3, .hardening = {.yield = 2, .modulus = 5}};
 
 TEST_CASE("an element that bends stays stable when it is compressed to 0.3 of its height") {
-  for (const auto& [width, height] : shapes) {
+  for (const auto& shape : shapes) {
+    const Real width = shape.first, height = shape.second;  // copies: bindings cannot be captured
     CAPTURE(width);
     CAPTURE(height);
     for (const Real poisson : {0.3, 0.4999})
@@ -107,7 +108,8 @@ TEST_CASE("an element that bends stays stable when it is compressed to 0.3 of it
 TEST_CASE("an element that bends becomes unstable in tension where its material does, at Considere's stretch") {
   // Plane strain: the stress 2/sqrt(3) (Y + h e) meets its slope 4/3 h, in the stretch along y.
   const Real slope = 4. / 3 * 5, considere = std::exp((slope - 2 / std::sqrt(3.) * 2) / slope);
-  for (const auto& [width, height] : shapes) {
+  for (const auto& shape : shapes) {
+    const Real width = shape.first, height = shape.second;  // copies: bindings cannot be captured
     CAPTURE(width);
     CAPTURE(height);
     const auto stretch = instability<Bends>(soft, width, height, 2.5);
@@ -140,5 +142,40 @@ TEST_CASE("a block of elements that bend has no negative pivot under compression
   CHECK(body == 16);  // at 42.5 %
   CHECK(first_negative(negative_pivots<Bends>(16)) == body);
   CHECK(first_negative(negative_pivots<Bends>(4)) >= body);
+}
+
+// A block between plates that hold it sideways, squeezed by steps of 2.5 %: its force over that of Q1/P0, and the step
+// that warns of its strain.
+std::pair<Real, Index> confined(Index cells, Real poisson, Index steps) {
+  const auto squeezed = [&]<class Element>(std::type_identity<Element>, Index& warned) {
+    Problem<Lone<EigenLdlt, Hencky, PlaneStrain, Element>> p(
+        {.body = mesh::rectangle({.cells = {cells, cells}}), .material = {.young = 1000, .poisson = poisson}});
+    p.hold("bottom", 0).hold("bottom", 1).hold("top", 0).drive("top", 1, [](Real t) { return -0.025 * t; });
+    auto march = p.march({.end = Real(steps), .steps = steps});
+    const Outcome outcome = march.finish();
+    CHECK_MESSAGE(outcome, outcome.message());
+    for (const Warning& w : march.warnings())
+      if (w.name == "varied_strain") warned = w.step;
+    return p.reaction("top", 1);
+  };
+  Index warned = 0, never = 0;
+  const Real force = squeezed(std::type_identity<Bends>{}, warned), mean = squeezed(std::type_identity<Mean>{}, never);
+  CHECK(never == 0);
+  return {force / mean, warned};
+}
+
+TEST_CASE("a confined block of elements that bend says when it locks, and only then") {
+  // The limit of the element, as a program without this library finds it too: nearly incompressible and coarse.
+  const auto [coarse, warned] = confined(4, 0.4999, 18);
+  MESSAGE("4 x 4: " << coarse << ", warned in step " << warned);
+  CHECK(coarse > 10);
+  CHECK(warned == 13);
+  CHECK(std::abs(confined(4, 0.4999, 13).first - 1.3) < 0.1);
+  const auto [fine, silent] = confined(16, 0.4999, 10);
+  CHECK(std::abs(fine - 1) < 0.02);
+  CHECK(silent == 0);
+  const auto [of_compressible, none] = confined(4, 0.3, 18);
+  CHECK(std::abs(of_compressible - 1) < 0.02);
+  CHECK(none == 0);
 }
 }  // namespace hourglass

@@ -296,6 +296,53 @@ TEST_CASE("three layers share a load, and the friction of a driven middle one is
   CHECK(problem.reaction("b.right", 0) == doctest::Approx(std::abs(low[0]) + std::abs(high[0])).epsilon(1e-4));
 }
 
+TEST_CASE(
+    "friction on a strip that is stretched: no jump from step to step, and an error of the bound of first order") {
+  const auto run = [](Index steps) {
+    auto strip = mesh::rectangle({.origin = {-3, -0.2}, .size = {6, 0.2}, .cells = {30, 1}});
+    auto block = mesh::rectangle({.origin = {-0.5, 0}, .size = {1, 0.5}, .cells = {4, 2}});
+    auto problem = std::make_unique<Problem<Plane>>(Problem<Plane>::Parameters{
+        .bodies = {{.name = "strip", .mesh = strip, .material = {.young = 100, .poisson = 0}},
+                   {.name = "block", .mesh = block, .material = {.young = 1e4, .poisson = 0.3}}},
+        .surfaces = {{.side = "block.bottom",
+                      .against = "strip.top",
+                      .friction = {.mu = 0.2},
+                      .enforcement = penalty(1e4),
+                      .name = "joint"}}});
+    problem->hold("strip.bottom", 1).hold("block.top", 0).drive("block.top", 1, [](Real t) {
+      return -0.01 * std::min(t, 1.0);
+    });
+    // From 1 to 2 the strip is drawn along and stretched by half; then it rests.
+    for (const Real end : {-3.0, 3.0})
+      problem->drive(end < 0 ? "strip.left" : "strip.right", 0, [=](Real t) {
+        const Real share = std::clamp(t - 1, 0.0, 1.0);
+        return share * (0.5 * end + 0.8);
+      });
+    auto press = problem->march({.end = 1, .steps = 4, .tolerance = 1e-10});
+    REQUIRE_MESSAGE(press.finish(), press.outcome().message());
+    auto march = problem->march({.end = 2, .steps = steps, .tolerance = 1e-10});
+    Real sum = 0;
+    Index looked = 0;
+    for (const StepReport& step : march)
+      if (step.time > 1.2) {
+        const auto f = problem->contact_force("joint");
+        sum += 1 - std::abs(f[0] / f[1]) / 0.2;
+        ++looked;
+      }
+    REQUIRE_MESSAGE(march.outcome(), march.outcome().message());
+    // A step at rest changes nothing: the forces were carried to the new lengths of the strip.
+    const auto before = problem->contact_force("joint");
+    auto rest = problem->march({.end = 2.1, .steps = 1, .tolerance = 1e-10});
+    REQUIRE_MESSAGE(rest.finish(), rest.outcome().message());
+    CHECK(problem->contact_force("joint")[0] == doctest::Approx(before[0]).epsilon(1e-3));
+    return sum / Real(looked);
+  };
+  // The force of a step is the bound over the stretch of that step.
+  const Real coarse = run(20), fine = run(40);
+  CHECK(coarse == doctest::Approx(0.008).epsilon(0.2));
+  CHECK(coarse / fine == doctest::Approx(2).epsilon(0.25));
+}
+
 TEST_CASE("a body slides off the end of another and is free") {
   auto slab = mesh::rectangle({.origin = {0, 0}, .size = {4, 1}, .cells = {10, 3}});
   auto slider = mesh::rectangle({.origin = {2, 1}, .size = {1, 0.5}, .cells = {3, 2}});

@@ -51,7 +51,7 @@ const HardCase inversion("elements", "squeezed to a hundredth, and through", ela
                          });
 
 // Flat cells are the most easily excited; the corners of rough plates excite them. Nearly incompressible, a coarse
-// block is stiffer than one of Q1/P0: three dilatations a cell are many where plates hold the nodes.
+// block is stiffer than one of Q1/P0: its strains lose volume where they vary much (theory.md, eq. 2.23).
 const HardCase hourglass(
     "elements", "a block between rough plates, squeezed to 0.6: 4 x 16 flat cells, nu = 0.3; 16 x 16, nu = 0.4999",
     "AssumedStrain; MeanDilatation",

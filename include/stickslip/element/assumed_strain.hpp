@@ -24,7 +24,7 @@ template <class Cell_ = Quad4>
 struct AssumedStrain {
   using Role = role::Element;
   using Cell = Cell_;
-  static constexpr bool takes_want = true;
+  static constexpr bool takes_want = true, locks_in_varied_strain = true;
   static constexpr int dim = Cell::dim, nodes = Cell::nodes, points = Cell::points, dofs = nodes * dim;
   static constexpr int stretches = dim, dilatations = dim + 1;
   static constexpr int condensed_unknowns = stretches + dilatations;  ///< alpha_j, then theta_k [-]

@@ -32,7 +32,7 @@ class AssumedStrainKernel {
   static constexpr int size = TensorPattern::size;
   static constexpr int first_c = stretches, first_B = first_c + modes * dim, first_hoop = first_B + dim * dim;
   static constexpr int variables = first_hoop + (Kinematics::hoop ? nodes : 0), of_u = variables - stretches;
-  static constexpr int of_vectors = (dim + modes) * dim + (Kinematics::hoop ? nodes : 0);
+  static constexpr int of_vectors = (dim + modes) * dim, core = first_hoop - stretches;
 
   AssumedStrainKernel(const Geometry& geometry, const Vec<S, dofs>& u) : geometry_(geometry), u_(u) {
     Mat<S, dim> change;  // of the base a_j
@@ -441,10 +441,9 @@ class AssumedStrainKernel {
     }
   }
 
-  // What acts on the generalised variables but the stretches, in every row, as it acts on the vectors a_j and y_I by
-  // component, and on radial displacements.
-  template <int rows>
-  Mat<S, rows, of_vectors> on_vectors(const Mat<S, rows, of_u>& in) const {
+  // What acts on the components c_Ij and B_ij, in every row, as it acts on the vectors a_j and y_I by component.
+  template <int rows, int columns>
+  Mat<S, rows, of_vectors> on_vectors(const Mat<S, rows, columns>& in) const {
     Mat<S, rows, of_vectors> out;
     const int B = modes * dim;
     for (int j = 0; j < dim; ++j)
@@ -460,8 +459,6 @@ class AssumedStrainKernel {
         combine(out, to, in, I * dim, a_(i, 0));
         for (int j = 1; j < dim; ++j) combine_add(out, to, in, I * dim + j, a_(i, j));
       }
-    if constexpr (Kinematics::hoop)
-      for (int a = 0; a < nodes; ++a) combine(out, (dim + modes) * dim + a, in, B + dim * dim + a, S(1));
     return out;
   }
   // The same on nodal displacements. With `lower`, only rows from a column's node on.
@@ -476,10 +473,16 @@ class AssumedStrainKernel {
           for (int r = first; r < rows; ++r) out(r, to) += S(geometry_.gradient(a, j)) * in(r, j * dim + i);
         for (int I = 0; I < modes; ++I)
           for (int r = first; r < rows; ++r) out(r, to) += S(geometry_.hourglass(a, I)) * in(r, (dim + I) * dim + i);
-        if constexpr (Kinematics::hoop)
-          if (i == 0)
-            for (int r = first; r < rows; ++r) out(r, to) += in(r, (dim + modes) * dim + a);
       }
+    return out;
+  }
+  // What acts on the generalised variables but the stretches, in every row, as it acts on nodal displacements.
+  template <int rows>
+  Mat<S, rows, dofs> nodal(const Mat<S, rows, of_u>& in) const {
+    Mat<S, rows, dofs> out = on_nodes(on_vectors(in));
+    if constexpr (Kinematics::hoop)
+      for (int a = 0; a < nodes; ++a)
+        for (int r = 0; r < rows; ++r) out(r, a * dim) += in(r, core + a);
     return out;
   }
 
@@ -526,23 +529,23 @@ class AssumedStrainKernel {
       for (int k = 0; k < dilatations; ++k) rows(2 + k, i - stretches) = t(i, k);
       for (int j = 0; j < stretches; ++j) rows(2 + dilatations + j, i - stretches) = entry(i, j);
     }
-    const Mat<S, 2 + dilatations + stretches, dofs> nodal = on_nodes(on_vectors(rows));
+    const Mat<S, 2 + dilatations + stretches, dofs> of_nodes = nodal(rows);
     for (int i = 0; i < dofs; ++i) {
-      f_u_[i] = nodal(0, i);
-      excess_[i] = nodal(1, i);
-      for (int k = 0; k < dilatations; ++k) t_u_(i, k) = nodal(2 + k, i);
-      for (int j = 0; j < stretches; ++j) K_au_(j, i) = K_ua_(i, j) = nodal(2 + dilatations + j, i);
+      f_u_[i] = of_nodes(0, i);
+      excess_[i] = of_nodes(1, i);
+      for (int k = 0; k < dilatations; ++k) t_u_(i, k) = of_nodes(2 + k, i);
+      for (int j = 0; j < stretches; ++j) K_au_(j, i) = K_ua_(i, j) = of_nodes(2 + dilatations + j, i);
     }
     if constexpr (full) {
       if constexpr (general) {
         Mat<S, stretches, of_u> by_u;
         for (int j = 0; j < stretches; ++j)
           for (int i = 0; i < of_u; ++i) by_u(j, i) = entry(j, stretches + i);
-        K_au_ = on_nodes(on_vectors(by_u));
+        K_au_ = nodal(by_u);
       }
-      Mat<S, of_u> square;
-      for (int j = 0; j < of_u; ++j)
-        for (int i = lower ? j : 0; i < of_u; ++i) {
+      Mat<S, core> square;
+      for (int j = 0; j < core; ++j)
+        for (int i = lower ? j : 0; i < core; ++i) {
           square(i, j) = entry(stretches + i, stretches + j);
           if constexpr (lower) square(j, i) = square(i, j);
         }
@@ -555,6 +558,25 @@ class AssumedStrainKernel {
             K((dim + I) * dim + i, j * dim + i) += r[first_c + I * dim + j];
           }
       K_uu_ = on_nodes<lower>(transposed(on_nodes(K)));
+      if constexpr (Kinematics::hoop) {
+        // Radial displacements stretch the hoop by themselves.
+        Mat<S, nodes, core> forces, slopes;  // of the hoop by the others, and of the others by the hoop
+        for (int a = 0; a < nodes; ++a)
+          for (int j = 0; j < core; ++j) {
+            forces(a, j) = entry(first_hoop + a, stretches + j);
+            if constexpr (general) slopes(a, j) = entry(stretches + j, first_hoop + a);
+          }
+        const Mat<S, nodes, dofs> left = on_nodes(on_vectors(forces)),
+                                  right = general ? on_nodes(on_vectors(slopes)) : left;
+        for (int a = 0; a < nodes; ++a) {
+          for (int i = 0; i < dofs; ++i) {
+            if (!lower || i <= a * dim) K_uu_(a * dim, i) += left(a, i);
+            if (!lower || i >= a * dim) K_uu_(i, a * dim) += right(a, i);
+          }
+          for (int b = 0; b < nodes; ++b)
+            if (!lower || b <= a) K_uu_(a * dim, b * dim) += entry(first_hoop + a, first_hoop + b);
+        }
+      }
     }
   }
 
