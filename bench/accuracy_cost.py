@@ -39,7 +39,7 @@ SCENES = {
         "program": "osu_punch", "options": ["--mu", "0.3"], "reference": 4000, "until": 40,
         "steps": {1: ["auto", 30, 60, 125, 250, 500], 2: ["auto", 125]}},
     "tube": {
-        "program": "shock_absorber", "options": ["--mu", "0.15"], "reference": 5000, "until": 42,
+        "program": "shock_absorber", "options": ["--mu", "0.15", "--self-contact", "off"], "reference": 5000, "until": 42,
         "steps": {1: ["auto", 320, 640, 1280]}},
 }
 QUICK = {"extrusion, unbounded cone": {1: ["auto", 60, 250]}, "punch": {1: ["auto", 30, 125]}}

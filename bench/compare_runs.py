@@ -20,6 +20,7 @@ SOLVERS = {"coulomb": ["eigen-lu", "umfpack", "corrected-cholmod", "banded"], "q
 RUNS = [(program, ["--friction", law, "--mu", mu])
         for program, mus in (("osu_punch", ["0.15", "0.30"]), ("conical_extrusion", ["0.1"]), ("shock_absorber", ["0.15", "0.30"]))
         for mu in mus for law in LAWS]
+RUNS += [("shock_absorber", ["--friction", law, "--mu", "0.30", "--self-contact", "off"]) for law in LAWS]
 MORE = [(program, ["--friction", law, "--solver", solver]) for program in ("osu_punch", "conical_extrusion", "shock_absorber")
         for law in LAWS for solver in SOLVERS[law]]
 MORE += [("osu_punch", ["--friction", law]) for law in ("frictionless", "extrapolated-quasi-coulomb", "lag-iterated-coulomb",

@@ -30,6 +30,9 @@ PAPER = {
 # Solvers compared: what the symmetric law takes against what the non-symmetric law needs.
 PAIRS = (("banded", "banded"), ("cholmod", "umfpack"), ("eigen-ldlt", "eigen-lu"))
 
+# The paper's tube passes through itself.
+THROUGH_ITSELF = ("--self-contact", "off")
+
 COLOURS = {0.30: "#d62728", 0.15: "#1f77b4", 0.10: "#1f77b4", 0.00: "#2ca02c"}
 
 
@@ -90,10 +93,10 @@ def draw(directory, name, body):
         raise Failed(f"gnuplot could not draw {directory / name}: {error.stderr.strip()}") from None
 
 
-def run_all(programs, out, name):
-    """Every run of a benchmark in the paper, with files."""
+def run_all(programs, out, name, extra=(), label=""):
+    """Every run of a benchmark in the paper, with files; `extra` are further options, `label` goes before their folders."""
     return {
-        (mu, law): run(programs / name, *options(law, mu), "--output", str(out / name / f"{law}-{mu:.2f}"))
+        (mu, law): run(programs / name, *options(law, mu), *extra, "--output", str(out / name / f"{label}{law}-{mu:.2f}"))
         for mu in PAPER[name]
         for law in LAWS
     }
@@ -111,7 +114,7 @@ def counts(name, results, extra=()):
                *(header for header, _ in extra)], rows))
 
 
-def times(programs, name, repeats):
+def times(programs, name, repeats, extra=()):
     """Prints the times of the symmetric law against those of the non-symmetric one, run in turn."""
     say(f"\nTime of a run, median of {repeats} paired runs (smallest-largest)\n")
     rows = []
@@ -121,8 +124,8 @@ def times(programs, name, repeats):
                 continue
             sym, non, ratio = [], [], []
             for _ in range(repeats):
-                a = run(programs / name, *options("quasi-coulomb", mu, symmetric))["seconds_total"]
-                b = run(programs / name, *options("coulomb", mu, general))["seconds_total"]
+                a = run(programs / name, *options("quasi-coulomb", mu, symmetric), *extra)["seconds_total"]
+                b = run(programs / name, *options("coulomb", mu, general), *extra)["seconds_total"]
                 sym.append(a), non.append(b), ratio.append(a / b)
             ms = lambda s: f"{1000 * s:.1f}"
             rows.append([f"{mu:.2f}", f"{symmetric} / {general}", spread(sym, ms), spread(non, ms), spread(ratio, lambda r: f"{r:.2f}")])
@@ -217,7 +220,7 @@ def conical_extrusion(programs, out, repeats):
 
 def shock_absorber(programs, out, repeats):
     name = "shock_absorber"
-    results = run_all(programs, out, name)
+    results = run_all(programs, out, name, THROUGH_ITSELF)
     say("\n## Shock absorber, axisymmetric, implicit dynamics, 3 x 100 elements (paper, table 4)\n")
     own = lambda r: "no" if r["self_penetration_from_mm"] is None else f"from {r['self_penetration_from_mm']:.1f} mm"
     counts(name, results, [("through itself", own), ("energy not accounted for", lambda r: f"{100 * abs(r['unbalanced_work_J']) / r['external_work_J']:.3f} %")])
@@ -230,7 +233,12 @@ def shock_absorber(programs, out, repeats):
         travels = [end * k / 1000 for k in range(1001)]
         square = sum((force_at(a, x) - force_at(b, x)) ** 2 for x in travels) / sum(force_at(a, x) ** 2 for x in travels)
         say(f"mu = {mu:.2f}: relative L2 difference of the laws' forces up to {end:.1f} mm {100 * square ** 0.5:.2f} %")
-    times(programs, name, repeats)
+    times(programs, name, repeats, THROUGH_ITSELF)
+    folds = run_all(programs, out, name, label="folds-")
+    say("\n### The same in contact with itself, to the end\n")
+    counts(name, folds, [("deepest in itself [mm]", lambda r: f"{r['deepest_in_itself_mm']:.3f}"),
+                         ("energy not accounted for", lambda r: f"{100 * abs(r['unbalanced_work_J']) / r['external_work_J']:.3f} %"),
+                         ("algorithmic", lambda r: f"{100 * r['algorithmic_work_J'] / r['external_work_J']:.2f} %")])
     draw_forces(out, name, "Shock absorber: force on the upper end (paper, figure 13)", "time [ms]", "force [kN]", "($2*1000)")
     for mu, figure in ((0.00, 9), (0.15, 10), (0.30, 11)):
         folder = out / name / f"coulomb-{mu:.2f}"
@@ -239,6 +247,11 @@ def shock_absorber(programs, out, repeats):
                       {"label": (18, 66), "ranges": "set xrange [15:230]\nset yrange [-10:70]"})
     draw_sequence(out / name, "final", "Shock absorber: final shapes, Coulomb (paper, figure 12)",
                   [(f"mu = {mu:.2f}", f"coulomb-{mu:.2f}/mesh.dat") for mu in PAPER[name]], 40, {"label": (18, 25), "ranges": "set xrange [15:150]\nset yrange [-10:35]"})
+    for mu in (0.15, 0.30):
+        folder = out / name / f"folds-coulomb-{mu:.2f}"
+        files = [(f"{t:g} mm", f) for t, f in [*shots(folder), (50.0, "mesh.dat")] if t >= 20]
+        draw_sequence(folder, "folds", f"Shock absorber in contact with itself, mu = {mu:.2f}, Coulomb", files, 26,
+                      {"label": (19, 27), "ranges": "set xrange [17:125]\nset yrange [-9:30]"})
     return results
 
 

@@ -17,6 +17,7 @@
 #include <stickslip/problem.hpp>
 #include <stickslip/verify/energy.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <functional>
@@ -41,12 +42,13 @@ enum class Books { none, kept };
 /// What is particular to a benchmark.
 struct Benchmark {
   Labels labels;
-  stickslip::MarchOptions march{};           ///< end, first and largest step
-  std::function<double()> travel_mm;         ///< abscissa of the history, now
-  std::function<double()> force_N;           ///< ordinate of the history, now
-  std::function<bool()> self_penetration{};  ///< whether the body passes through itself
-  double reach_mm = 100;                     ///< how far the tools are drawn
-  std::string section{};                     ///< of a mesh in space, the side that is drawn: see patches()
+  stickslip::MarchOptions march{};            ///< end, first and largest step
+  std::function<double()> travel_mm;          ///< abscissa of the history, now
+  std::function<double()> force_N;            ///< ordinate of the history, now
+  std::function<double()> depth_in_itself{};  ///< of the body [mm]
+  double most_in_itself_mm = 0;               ///< that is no passing through itself
+  double reach_mm = 100;                      ///< how far the tools are drawn
+  std::string section{};                      ///< of a mesh in space, the side that is drawn: see patches()
 };
 
 /// The books, where they are kept.
@@ -134,8 +136,11 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark be
     r.steps.push_back(step);
     note();
     if constexpr (books == Books::kept) ledger->update(step);
-    if (benchmark.self_penetration && !r.self_penetration_mm && benchmark.self_penetration())
-      r.self_penetration_mm = r.travel_mm.back();
+    if (benchmark.depth_in_itself) {
+      const double depth = benchmark.depth_in_itself();
+      r.deepest_in_itself_mm = std::max(r.deepest_in_itself_mm, depth);
+      if (depth > benchmark.most_in_itself_mm && !r.self_penetration_mm) r.self_penetration_mm = r.travel_mm.back();
+    }
     if (files)
       for (const double stop : benchmark.march.stops)
         if (std::abs(step.time - stop) < 1e-9 * benchmark.march.end) write_shot(shot_name(r.travel_mm.back()));
@@ -160,7 +165,7 @@ int run(const Options& options, stickslip::Problem<Model>& problem, Benchmark be
   r.warnings = march.warnings();
   r.max_plastic_strain = problem.max_plastic_strain();
   if constexpr (books == Books::kept) r.energies = ledger->energies();
-  r.checks_self_penetration = static_cast<bool>(benchmark.self_penetration);
+  r.checks_self_penetration = static_cast<bool>(benchmark.depth_in_itself);
   if (options.wished > 0 && r.report.steps > 0) r.advice = advise(march, options.wished).words;
   r.seconds = seconds_before + clock.seconds();
   if (files) {

@@ -98,6 +98,7 @@ nlohmann::ordered_json to_json(const Options& options, const Record& r) {
       j["self_penetration_from_mm"] = *r.self_penetration_mm;
     else
       j["self_penetration_from_mm"] = nullptr;
+    j["deepest_in_itself_mm"] = r.deepest_in_itself_mm;
   }
   if (!r.advice.empty()) j["advice"] = r.advice;
   j["warnings"] = nlohmann::ordered_json::array();
@@ -152,6 +153,7 @@ void Record::serialize(stickslip::Archive& archive) {
   std::vector<double> penetrates;
   if (self_penetration_mm) penetrates.push_back(*self_penetration_mm);
   archive.resizable("history, self-penetration", penetrates);
+  archive("history, deepest in itself", deepest_in_itself_mm);
   if (!archive.loading()) return;
   if (time_s.size() != steps.size() + 1 || travel_mm.size() != time_s.size() || force_N.size() != time_s.size())
     throw std::runtime_error(archive.origin + " does not fit: its histories are not of one length");
@@ -222,8 +224,8 @@ int conclude(const Options& options, const Record& r, Outputs& outputs) {
         100 * r.report.errors.penetration, 100 * r.report.errors.space);
   if (!r.advice.empty() && options.json != "-") std::printf("%s\n", r.advice.c_str());
   if (!options.quiet && r.self_penetration_mm)
-    std::fprintf(stderr, "%s: from %.1f mm on the body passes through itself; there is no self-contact yet\n",
-                 r.labels.name.c_str(), *r.self_penetration_mm);
+    std::fprintf(stderr, "%s: from %.1f mm on the body passes through itself\n", r.labels.name.c_str(),
+                 *r.self_penetration_mm);
   if (outputs.missing().size() > 1)
     std::cerr << r.labels.name << ": " << outputs.missing().size() << " files could not be written\n";
   for (const auto& w : r.warnings)

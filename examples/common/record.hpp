@@ -42,6 +42,7 @@ struct Record {
   std::string advice{};                                   ///< where it was asked for
   std::optional<stickslip::verify::Energies> energies{};  ///< [N mm], where the benchmark keeps the books
   bool checks_self_penetration = false;
+  double deepest_in_itself_mm = 0;              ///< of a node in another part of the body
   std::optional<double> self_penetration_mm{};  ///< travel from which on the body passes through itself
 
   /// The histories, and the seconds so far.

@@ -1,43 +1,54 @@
 // SPDX-License-Identifier: BSL-1.0
-// Whether a body passes through itself: there is no self-contact yet, so a benchmark says when it would be needed.
+// How deep a body lies in itself, looked at without the library's contact: what self-contact is held against.
 #pragma once
 
 #include <stickslip/base/nodal.hpp>
 #include <stickslip/mesh/mesh.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace examples {
 
-/// True when a node of the side lies inside a cell that it does not belong to, at the nodal displacements u.
-inline bool passes_through_itself(const stickslip::Mesh<2, 4>& mesh, const stickslip::Field& u,
-                                  const std::string& side) {
+/// The largest depth of a node of the side in a cell that it does not belong to, at the nodal displacements u: its
+/// distance from the nearest facet of the side that is not its own [length]; 0 where none is in a cell.
+inline double depth_in_itself(const stickslip::Mesh<2, 4>& mesh, const stickslip::Field& u, const std::string& side) {
   using Point = stickslip::Vec<double, 2>;
   std::vector<Point> x(mesh.nodes.size());
   for (std::size_t n = 0; n < x.size(); ++n)
     x[n] = mesh.nodes[n] + stickslip::at_node<2>(u, static_cast<stickslip::Index>(n));
+  const auto at = [&](stickslip::Index n) -> const Point& { return x[static_cast<std::size_t>(n)]; };
+  const auto distance = [&](stickslip::Index node) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& facet : mesh.side(side).facets) {
+      if (facet[0] == node || facet[1] == node) continue;
+      const Point way = at(facet[1]) - at(facet[0]), from = at(node) - at(facet[0]);
+      nearest = std::min(nearest, (from - std::clamp(from.dot(way) / way.squaredNorm(), 0.0, 1.0) * way).norm());
+    }
+    return nearest;
+  };
+  double deepest = 0;
   for (const auto& cell : mesh.cells) {
-    Point low = x[static_cast<std::size_t>(cell[0])], high = low;
+    Point low = at(cell[0]), high = low;
     for (const auto n : cell) {
-      low = low.cwiseMin(x[static_cast<std::size_t>(n)]);
-      high = high.cwiseMax(x[static_cast<std::size_t>(n)]);
+      low = low.cwiseMin(at(n));
+      high = high.cwiseMax(at(n));
     }
     for (const auto node : mesh.side(side).nodes) {
-      const Point& p = x[static_cast<std::size_t>(node)];
+      const Point& p = at(node);
       if ((p.array() <= low.array()).any() || (p.array() >= high.array()).any()) continue;
       if (std::find(cell.begin(), cell.end(), node) != cell.end()) continue;
       bool inside = true;  // on the left of every edge
       for (std::size_t a = 0; a < cell.size() && inside; ++a) {
-        const Point& from = x[static_cast<std::size_t>(cell[a])];
-        const Point edge = x[static_cast<std::size_t>(cell[(a + 1) % cell.size()])] - from;
-        inside = edge[0] * (p[1] - from[1]) - edge[1] * (p[0] - from[0]) > 0;
+        const Point edge = at(cell[(a + 1) % cell.size()]) - at(cell[a]);
+        inside = edge[0] * (p[1] - at(cell[a])[1]) - edge[1] * (p[0] - at(cell[a])[0]) > 0;
       }
-      if (inside) return true;
+      if (inside) deepest = std::max(deepest, distance(node));
     }
   }
-  return false;
+  return deepest;
 }
 
 }  // namespace examples

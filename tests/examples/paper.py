@@ -53,13 +53,21 @@ check(wider["final_force_N"] < forces["coulomb"], "a slimmer cone takes less for
 
 # The tube: turned inside out without friction, and the energy balance closes under every law.
 for law, mu in (("frictionless", "0"), ("quasi-coulomb", "0.15"), ("coulomb", "0.15"), ("quasi-coulomb", "0.3"), ("coulomb", "0.3")):
-    r = run(tube, "--friction", law, "--mu", mu)
+    r = run(tube, "--friction", law, "--mu", mu, "--self-contact", "off")
     check(r["completed"] and abs(r["history"]["displacement_mm"][-1] - 50) < 1e-9, (law, r["steps"]))
     check(r["steps"] <= 250 and r["iterations"] <= 900, (law, mu, r["steps"], r["iterations"]))
     check(r["symmetric_storage"] == (law != "coulomb"), r["symmetric_storage"])
     check(r["kinetic_energy_J"] > 0 and r["plastic_work_J"] > 0.3 * r["external_work_J"], r["plastic_work_J"])
     energy_balance_closes(r, 1e-2)
     check((r["self_penetration_from_mm"] is None) == (law == "frictionless"), r["self_penetration_from_mm"])
+    check((r["deepest_in_itself_mm"] > 0.2) == (law != "frictionless"), (law, mu, r["deepest_in_itself_mm"]))
+# In contact with itself it folds, to the end of the travel.
+for law, mu in (("coulomb", "0.15"), ("coulomb", "0.30"), ("quasi-coulomb", "0.30")):
+    r = run(tube, "--friction", law, "--mu", mu)
+    check(r["completed"], f"the tube folds on itself to the end, {law}, {mu}")
+    check(r["deepest_in_itself_mm"] < 0.15, f"no node deeper in itself than a quarter of an element: {r['deepest_in_itself_mm']}, {law}, {mu}")
+    check(abs(r["unbalanced_work_J"]) < 1e-3 * r["external_work_J"], f"its energy balance closes, {law}, {mu}")
+
 abrupt = run(tube, "--friction", "frictionless", "--start-velocity", "off")
 check(max(abrupt["history"]["force_N"][:40]) > 1000, "an abrupt start sends a shock through the tube")
 print(f"{checks} passed, 0 failed")
