@@ -2,7 +2,11 @@
 // Bodies that touch bodies, and themselves, against known solutions and against what must not change the answer.
 #include <stickslip/contact/surface_contact.hpp>
 #include <stickslip/element/assumed_strain.hpp>
+#include <stickslip/enforcement/augmented_lagrangian.hpp>
 #include <stickslip/io/checkpoint.hpp>
+#include <stickslip/linear_solver/corrected.hpp>
+#include <stickslip/linear_solver/eigen_ldlt.hpp>
+#include <stickslip/linear_solver/eigen_lu.hpp>
 #include <stickslip/stickslip.hpp>
 #include <stickslip/time_integration/generalized_alpha.hpp>
 #include <stickslip/verify/energy.hpp>
@@ -30,6 +34,18 @@ struct Blocks : QuasistaticDefaults {
 };
 using Plane = Blocks<PlaneStrain>;
 using Ring = Blocks<Axisymmetric>;
+// Multipliers, and slip bounds that outer iterations bring up to date.
+struct Exact : QuasistaticDefaults {
+  using Bodies = BodyTypes<Block>;
+  using Enforcement = AugmentedLagrangian;
+  using Surfaces = SurfaceContact<WithPressure<Coulomb, LagIterated>>;
+};
+// The exact tangent on a symmetric factor.
+struct OnFactor : QuasistaticDefaults {
+  using Bodies = BodyTypes<Block>;
+  using Surfaces = SurfaceContact<Coulomb>;
+  using LinearSolver = Corrected<EigenLdlt>;
+};
 // A thin strip that bends.
 struct Strip : QuasistaticDefaults {
   using Element = AssumedStrain<Quad4>;
@@ -341,6 +357,45 @@ TEST_CASE(
   const Real coarse = run(20), fine = run(40);
   CHECK(coarse == doctest::Approx(0.008).epsilon(0.2));
   CHECK(coarse / fine == doctest::Approx(2).epsilon(0.25));
+}
+
+TEST_CASE(
+    "multipliers leave no gap, outer iterations no lag, and a corrected factor gives the forces of the full matrix") {
+  const auto slid = []<class Model>(std::type_identity<Model>) {
+    auto slab = mesh::rectangle({.origin = {0, 0}, .size = {4, 1}, .cells = {12, 3}});
+    auto slider = mesh::rectangle({.origin = {1, 1}, .size = {1, 0.5}, .cells = {4, 2}});
+    SurfaceContacts<Model> contacts(1);
+    contacts[0].side = "slider.bottom";
+    contacts[0].against = "slab.top";
+    contacts[0].friction = {.mu = 0.3};
+    contacts[0].enforcement = {.normal = 1e4, .tangential = 3e3, .per = PenaltyPer::area};
+    contacts[0].name = "joint";
+    auto problem = std::make_unique<Problem<Model>>(typename Problem<Model>::Parameters{
+        .bodies = {{.name = "slab", .mesh = slab, .material = {.young = 1e3, .poisson = 0.3}},
+                   {.name = "slider", .mesh = slider, .material = {.young = 3e3, .poisson = 0.3}}},
+        .surfaces = contacts});
+    problem->hold("slab.bottom", 0).hold("slab.bottom", 1);
+    problem->drive("slider.top", 1, [](Real t) { return -0.02 * std::min(t, 1.0); });
+    problem->drive("slider.top", 0, [](Real t) { return 0.4 * std::max(t - 1, 0.0); });
+    auto march = problem->march({.end = 2, .steps = 20, .tolerance = 1e-9, .outer_tolerance = 1e-6});
+    REQUIRE_MESSAGE(march.finish(), march.outcome().message());
+    return problem;
+  };
+  struct Full : OnFactor {
+    using LinearSolver = EigenLu;
+  };
+  const auto exact = slid(std::type_identity<Exact>{});
+  const auto full = slid(std::type_identity<Full>{});
+  const auto corrected = slid(std::type_identity<OnFactor>{});
+  const auto& joint = exact->contact("joint");
+  for (const auto& state : joint.states())
+    if (state.touching) CHECK(std::abs(state.gap) < 1e-6);
+  CHECK(joint.summary().lag < 1e-5 * joint.summary().friction_capacity);
+  CHECK((corrected->contact_force("joint") - full->contact_force("joint")).norm() <
+        1e-7 * full->contact_force("joint").norm());
+  CHECK((corrected->displacement() - full->displacement()).lpNorm<Eigen::Infinity>() < 1e-8);
+  const auto f = full->contact_force("joint"), g = exact->contact_force("joint");
+  CHECK(std::abs(f[0] / f[1] - g[0] / g[1]) < 5e-3);
 }
 
 TEST_CASE("a body slides off the end of another and is free") {

@@ -5,8 +5,12 @@
 #include <stickslip/element/quad4.hpp>
 #include <stickslip/enforcement/augmented_lagrangian.hpp>
 #include <stickslip/enforcement/penalty.hpp>
+#include <stickslip/friction/capped_coulomb.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/friction/frictionless.hpp>
+#include <stickslip/friction/slip_weakening.hpp>
+#include <stickslip/friction/stribeck.hpp>
+#include <stickslip/friction/tresca.hpp>
 #include <stickslip/kinematics/axisymmetric.hpp>
 #include <stickslip/kinematics/plane_strain.hpp>
 #include <stickslip/linear_solver/eigen_ldlt.hpp>
@@ -46,6 +50,23 @@ struct Model {
   using LinearSolver = AnySolver;
 };
 
+// Parameters of the laws with a coefficient mu, or what bears as much.
+void give(Coulomb& law, Real mu) {
+  law.mu = mu;
+}
+void give(CappedCoulomb& law, Real mu) {
+  law = {.mu = mu, .tau_max = 100 * mu};
+}
+void give(Tresca& law, Real mu) {
+  law.tau = 10 * mu;
+}
+void give(SlipWeakeningCoulomb& law, Real mu) {
+  law = {.mu_static = mu, .mu_dynamic = 0.5 * mu, .length = 0.1};
+}
+void give(Stribeck& law, Real mu) {
+  law = {.mu_static = mu, .mu_dynamic = 0.5 * mu, .speed = 0.1};
+}
+
 // Two blocks with a curved interface, of three and four facets, the upper one pressed on the lower and slid along it.
 template <class M>
 struct TwoBlocks {
@@ -75,7 +96,7 @@ struct TwoBlocks {
     contacts[0].side = low_is_slave ? "low.top" : "up.bottom";
     contacts[0].against = low_is_slave ? "up.bottom" : "low.top";
     contacts[0].enforcement = {.normal = 2e3, .tangential = 5e2, .per = PenaltyPer::area};
-    if constexpr (rubs) contacts[0].friction = {.mu = mu};
+    if constexpr (rubs) give(contacts[0].friction, mu);
     std::get<1>(pairs).emplace_back(contacts[0], bodies);
     return pairs;
   }
@@ -150,7 +171,10 @@ TEST_CASE("the derivatives of a foot are those of its gap and place, on a segmen
 TEST_CASE_TEMPLATE(
     "the tangent of surfaces in contact is the derivative of their forces, and symmetric where it says so", M,
     Model<PlaneStrain, Frictionless>, Model<PlaneStrain, Coulomb>, Model<Axisymmetric, QuasiCoulomb>,
-    Model<PlaneStrain, QuasiCoulomb, AugmentedLagrangian>, Model<Axisymmetric, Coulomb>) {
+    Model<PlaneStrain, QuasiCoulomb, AugmentedLagrangian>, Model<Axisymmetric, Coulomb>,
+    Model<PlaneStrain, CappedCoulomb>, Model<Axisymmetric, Tresca>,
+    Model<PlaneStrain, WithPressure<SlipWeakeningCoulomb, Extrapolated>>,
+    Model<Axisymmetric, WithPressure<Stribeck, LagIterated>>, Model<PlaneStrain, Stribeck>) {
   for (const bool low_is_slave : {false, true})
     for (const Real mu : {0.2, 5.0}) {  // slides, sticks
       TwoBlocks<M> blocks(mu, low_is_slave);

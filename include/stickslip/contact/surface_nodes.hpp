@@ -273,14 +273,15 @@ class SurfaceNodes : public ContactRecord<Kinematics::dim> {
       visit(q, at_[q], std::array<Index, 4>{s[0], s[1], m[0], m[1]});
     }
   }
-  // Calls visit(k, weight times shape function) for the two nodes that share a point.
+  // Calls visit(k, weight times shape function) for the two nodes that share a point, or for the tip that it is.
   template <class Visit>
   void for_each_share(std::size_t q, Visit&& visit) const {
     const std::size_t f = slave_facet_[q];
     const SurfacePointOf& point = points_.points(f)[q - points_.first_point(f)];
+    if (point.tip != Surface::none) return visit(place_[static_cast<std::size_t>(point.tip)], point.weight);
     const auto& ends = points_.slave().facet(f);
-    visit(place_[static_cast<std::size_t>(ends[0])], point.weight * (1 - point.eta));
-    visit(place_[static_cast<std::size_t>(ends[1])], point.weight * point.eta);
+    if (points_.counts(f, 0)) visit(place_[static_cast<std::size_t>(ends[0])], point.weight * (1 - point.eta));
+    if (points_.counts(f, 1)) visit(place_[static_cast<std::size_t>(ends[1])], point.weight * point.eta);
   }
   // Where a node is in the stencil of contact node k.
   std::size_t entry(std::size_t k, Index node) const {

@@ -256,7 +256,7 @@ class SurfacePair : public detail::SurfaceHistory<Model, Friction_> {
       Real normal = 0, along = 0;
       std::size_t k = 0;
       this->for_each_share(q, [&](std::size_t of, Real share) {
-        k = of;
+        k = of;  // whose stencil has the point's nodes
         if (!response_[of].touching) return;
         normal -= this->gap_part(of, share) * response_[of].pressure;
         if constexpr (with_friction) along += this->slip_part(q, of, share) * response_[of].friction.traction[0];

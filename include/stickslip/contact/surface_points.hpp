@@ -22,6 +22,7 @@ struct SurfacePointOf {
   Real weight;                        ///< reference area, with thickness or circumference [length^2]
   Index start_facet = Surface::none;  ///< of its foot where the step began; none without a foot there
   Real start_place = 0;               ///< place of that foot [length]
+  Index tip = Surface::none;          ///< the node that it is, where that touches by its tip alone
 };
 
 /// The points of a slave surface against a master surface over a step: where they are, and which master facets they may
@@ -43,6 +44,10 @@ class SurfacePoints {
   const Surface& slave() const { return slave_; }
   const Surface& master() const { return master_; }
   bool self() const { return self_; }
+  /// Whether the points of a facet count for the node at its first or second end. Where the slave's surface bends they
+  /// do only if the facet lies flat on the master: means over one that stands askew would feel the node once it has
+  /// sunk in. Where neither facet lies flat the node touches by its tip, a point of its own (theory.md, section 4.8).
+  bool counts(std::size_t facet, std::size_t end) const { return counts_[facet][end]; }
   /// The master facets that a slave facet may meet in this step, ascending.
   std::span<const std::size_t> candidates(std::size_t facet) const {
     return part(candidates_, candidate_start_, facet);
@@ -61,6 +66,8 @@ class SurfacePoints {
     const FacetTree tree(master_.size(), [&](std::size_t g) { return master_.box(u, g, 0); });
     candidates_.clear();
     points_.clear();
+    tips_.clear();
+    find_creases(u);
     candidate_start_.assign(1, 0);
     point_start_.assign(1, 0);
     for (std::size_t f = 0; f < slave_.size(); ++f) {
@@ -71,6 +78,7 @@ class SurfacePoints {
       std::sort(candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_start_.back()), candidates_.end());
       candidate_start_.push_back(candidates_.size());
       if (!candidates(f).empty()) cut(u, f);
+      if (!candidates(f).empty()) look_at_creases(u, f);
       point_start_.push_back(points_.size());
       for (std::size_t q = point_start_[f]; q < points_.size(); ++q) {
         const Closest at = closest(u, f, points_[q].eta);
@@ -175,7 +183,8 @@ class SurfacePoints {
         const auto g = static_cast<std::size_t>(at.facet);
         const Index beyond = at.foot.xi() > 0.5 ? master_.next(g) : master_.previous(g);
         if (contraction(slave_.normal(to, f), master_.normal(to, static_cast<std::size_t>(beyond))) < -0.1 &&
-            !(self_ && (beyond < static_cast<Index>(f) || slave_.neighbours(f, static_cast<std::size_t>(beyond)))))
+            !(self_ && (!comes_first(f, static_cast<std::size_t>(beyond)) ||
+                        slave_.neighbours(f, static_cast<std::size_t>(beyond)))))
           return slave_.facet(f)[0];
       }
     return Surface::none;
@@ -198,7 +207,7 @@ class SurfacePoints {
   }
   // Whether a slave facet may meet a master facet: they look at each other, are within reach, and no wall is between.
   bool meets(const Field& u, std::size_t f, const Point& normal, std::size_t g) const {
-    if (self_ && (g <= f || slave_.neighbours(f, g))) return false;
+    if (self_ && (!comes_first(f, g) || slave_.neighbours(f, g))) return false;
     const Point opposite = master_.normal(u, g);
     if (!(contraction(normal, opposite) < 0)) return false;
     const std::array<Point, 2> s{slave_.position(u, slave_.facet(f)[0]), slave_.position(u, slave_.facet(f)[1])},
@@ -218,6 +227,48 @@ class SurfacePoints {
     for (const Point& x : {s[0], s[1], Point(scaled(Point(s[0] + s[1]), Real(0.5)))}) consider(x, m);
     for (const Point& x : m) consider(x, s);
     return nearest < reach_ && depth < deepest(f, g);
+  }
+  // Of a pair in contact with itself the slave: the facet at a crease, whose tip it feels, else the first along the
+  // side.
+  bool comes_first(std::size_t f, std::size_t g) const { return creased_[f] != creased_[g] ? creased_[f] : f < g; }
+  static constexpr Real crease = 0.87, flat = 0.94;  // cosines of 30 and 20 degrees
+  bool bends(const Field& u, std::size_t f, Index beyond) const {
+    return beyond != Surface::none &&
+           contraction(slave_.normal(u, f), slave_.normal(u, static_cast<std::size_t>(beyond))) < crease;
+  }
+  void find_creases(const Field& u) {
+    creased_.resize(slave_.size());
+    counts_.assign(slave_.size(), {true, true});
+    for (std::size_t f = 0; f < slave_.size(); ++f)
+      creased_[f] = bends(u, f, slave_.next(f)) || bends(u, f, slave_.previous(f));
+  }
+  // Looks whether a facet lies flat on the master at its ends where the surface bends; where neither facet there does,
+  // the first of them adds a point for the tip.
+  void look_at_creases(const Field& u, std::size_t f) {
+    if (!creased_[f]) return;
+    for (const std::size_t end : {0, 1}) {
+      const Index beyond = end == 1 ? slave_.next(f) : slave_.previous(f), node = slave_.facet(f)[end];
+      if (!bends(u, f, beyond)) continue;
+      const Closest at = closest(u, f, Real(end));
+      if (at.facet == Surface::none) continue;
+      const Point normal = master_.normal(u, static_cast<std::size_t>(at.facet));
+      const auto other = static_cast<std::size_t>(beyond);
+      if (contraction(slave_.normal(u, f), normal) < -flat) continue;
+      counts_[f][end] = false;
+      if (contraction(slave_.normal(u, other), normal) < -flat) continue;
+      if (std::find(tips_.begin(), tips_.end(), node) != tips_.end()) continue;
+      tips_.push_back(node);
+      points_.push_back({.eta = Real(end), .weight = tributary(u, f, node) + tributary(u, other, node), .tip = node});
+    }
+  }
+  // Reference area of a facet that one of its nodes carries.
+  Real tributary(const Field& u, std::size_t f, Index node) {
+    const Field& rest = rest_of(u);
+    const auto& ends = slave_.facet(f);
+    const Index from = ends[0] == node ? ends[1] : ends[0];
+    Point third = scaled(slave_.position(rest, node), Real(2) / 3);
+    add(third, slave_.position(rest, from), Real(1) / 3);
+    return 0.5 * slave_.length(f) * kinematics_.volume_factor(third);
   }
   // Cuts a slave facet where nodes of the master project on it, two Gauss points a piece.
   void cut(const Field& u, std::size_t f) {
@@ -255,7 +306,10 @@ class SurfacePoints {
   std::vector<std::size_t> candidates_, candidate_start_, point_start_;
   std::vector<SurfacePointOf> points_;
   std::vector<Real> cuts_;
-  Field rest_;  // no displacement
+  std::vector<bool> creased_;  // facets of the slave
+  std::vector<std::array<bool, 2>> counts_;
+  std::vector<Index> tips_;  // of this step
+  Field rest_;               // no displacement
   Real reach_ = 0, allowed_ = 0;
 };
 
