@@ -62,14 +62,14 @@ TEST_CASE("Stribeck's tangent is exact with every pressure source") {
 }
 
 template <class Friction>
-auto slide(const Scene& scene, const typename Friction::Law& law, Real depth, Real along) {
+auto slide(const Touch& scene, const typename Friction::Law& law, Real depth, Real along) {
   const auto node = node_on<Friction>(scene, law);
   const std::vector<V> path{place(scene, -0.01, 0), place(scene, depth, 0), place(scene, depth, along)};
   const auto now = node.template at<Real>(path.back(), node.template preloaded<Real>(path, dt), dt);
   return std::pair(now, verify::contact_tangent(node, path, dt));
 }
 TEST_CASE("capped Coulomb is Coulomb bit for bit below the cap, tau_max A and symmetric at it") {
-  for (const Scene& scene : scenes) {
+  for (const Touch& scene : scenes) {
     const auto [coulomb, exact] = slide<Coulomb>(scene, {.mu = 0.3}, 0.02, 0.3);
     const auto [below, low] = slide<CappedCoulomb>(scene, uncapped, 0.02, 0.3);
     CHECK(below.force == coulomb.force);
@@ -88,7 +88,7 @@ TEST_CASE("capped Coulomb is Coulomb bit for bit below the cap, tau_max A and sy
   }
 }
 TEST_CASE("Tresca's bound is tau A at every depth and keeps no pressure") {
-  for (const Scene& scene : scenes)
+  for (const Touch& scene : scenes)
     for (const Real depth : {1e-6, 0.01, 0.2}) {
       const auto now = slide<WithPressure<Tresca, Extrapolated>>(scene, tresca, depth, -0.3).first;
       CHECK(now.sliding);
@@ -116,7 +116,7 @@ TEST_CASE("slip weakening and Stribeck have the exact derivatives of mu and its 
 }
 TEST_CASE("the friction return has a solution where Stribeck's bound falls faster than the sticking spring unloads") {
   const Real blink = 1e-4;
-  for (const Scene& scene : scenes)
+  for (const Touch& scene : scenes)
     for (const Real along : {0.1366, 0.14, 0.2, 0.5}) {  // from hardly above the static bound on
       const auto node = node_on<Quasi<Stribeck>>(scene, stribeck);
       const V first = place(scene, 0.02, 0);
@@ -134,7 +134,7 @@ TEST_CASE("the friction return has a solution where Stribeck's bound falls faste
 }
 
 TEST_CASE("in a step without duration the slip rate is zero") {
-  for (const Scene& scene : scenes) {
+  for (const Touch& scene : scenes) {
     const auto node = node_on<Stribeck>(scene, stribeck);
     const std::vector<V> path{place(scene, -0.01, 0), place(scene, 0.02, 0.3)};
     const auto now = node.at<Real>(path.back(), node.preloaded<Real>(path, 0), 0);
@@ -145,7 +145,7 @@ TEST_CASE("in a step without duration the slip rate is zero") {
 }
 
 TEST_CASE("a law with a bound of zero has the force and stiffness of no friction") {
-  for (const Scene& scene : scenes) {
+  for (const Touch& scene : scenes) {
     const auto smooth = slide<Coulomb>(scene, {}, 0.02, 0.3).first;
     const auto equal = [&](const auto& now) {
       CHECK(now.force == smooth.force);
@@ -177,7 +177,7 @@ TEST_CASE("the extrapolated pressure is linear in time, limited, and the last co
   CHECK(foretold(after({{0.5, 2}, {0.2, 0}, {0.2, 3}}), 0.1) == 3);
   CHECK(foretold(after({{0.5, 2}, {0, 3}}), 0.1) == 3);  // a step without duration
   // A node that was let go has forgotten, and slides freely when it comes back, as with the last converged pressure.
-  const Scene& scene = scenes[0];
+  const Touch& scene = scenes[0];
   const auto node = node_on<ExtrapolatedCoulomb>(scene, {.mu = 0.3});
   const V in = place(scene, 0.02, 0), deep = place(scene, 0.03, 0.1), out = place(scene, -0.01, 0.1);
   const auto left = node.preloaded<Real>({out, in, deep, out, in}, dt);

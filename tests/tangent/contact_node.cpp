@@ -50,14 +50,14 @@ static_assert(friction_symmetry<Adhesion>() == Symmetry::symmetric);
 
 TEST_CASE("Coulomb's contact tangent is exact in every state of a node") {
   check_states<Coulomb>({.mu = 0.3});
-  for (const Scene& scene : scenes) {  // first contact: the current pressure binds at once
+  for (const Touch& scene : scenes) {  // first contact: the current pressure binds at once
     check<Coulomb>(scene, {.mu = 0.3}, {place(scene, -0.01, 0), place(scene, 0.02, 0.01)}, Expect::sticking);
     check<Coulomb>(scene, {.mu = 0.3}, {place(scene, -0.01, 0), place(scene, 0.02, 0.2)}, Expect::sliding);
   }
 }
 TEST_CASE("Quasi-Coulomb's contact tangent is exact in every state of a node") {
   check_states<QuasiCoulomb>({.mu = 0.3});
-  for (const Scene& scene : scenes) {  // first contact: no converged pressure, the node slides freely
+  for (const Touch& scene : scenes) {  // first contact: no converged pressure, the node slides freely
     const std::vector<V> path{place(scene, -0.01, 0), place(scene, 0.02, 0.2)};
     check<QuasiCoulomb>(scene, {.mu = 0.3}, path, Expect::sliding);
     const auto node = node_on<QuasiCoulomb>(scene, {.mu = 0.3});
@@ -77,8 +77,8 @@ TEST_CASE("the contact tangent of a user's hardening adhesion is exact in every 
 }
 
 TEST_CASE("the frictionless contact tangent is exact and symmetric in every state of a node") {
-  for (const Scene& scene : scenes) {
-    const verify::SingleNode<Penalty, Empty<Scene>, Frictionless, rigid::Profile> node{
+  for (const Touch& scene : scenes) {
+    const verify::SingleNode<Penalty, Empty<Touch>, Frictionless, rigid::Profile> node{
         .enforcement = penalty, .law = {}, .friction = {}, .tool = scene.tool};
     for (const Real depth : {-0.02, 0.01, 0.2}) {
       const std::vector<V> path{place(scene, depth, 0.1)};
@@ -106,7 +106,7 @@ TEST_CASE("contact tangents are exact on either side of the stick-slip switch") 
 }
 
 TEST_CASE("Coulomb's tangent is not symmetric while a node slides, and is while it sticks or mu is 0") {
-  for (const Scene& scene : scenes) {
+  for (const Touch& scene : scenes) {
     const V out = place(scene, -0.01, 0), first = place(scene, 0.02, 0.0);
     const std::vector<V> slide{out, first, place(scene, 0.02, 0.3)}, stick{out, first, place(scene, 0.02, 0.001)};
     CHECK(verify::contact_tangent(node_on<Coulomb>(scene, {.mu = 0.3}), slide).asymmetry > 0.1);
@@ -117,7 +117,7 @@ TEST_CASE("Coulomb's tangent is not symmetric while a node slides, and is while 
 }
 
 TEST_CASE("Quasi-Coulomb's tangent of sliding on a flat tool has no tangential part (paper, eq. 22)") {
-  const Scene flat{"flat", rigid::line({0, 0}, {1, 0}), {0, 0}};
+  const Touch flat{"flat", rigid::line({0, 0}, {1, 0}), {0, 0}};
   const auto node = node_on<QuasiCoulomb>(flat, {.mu = 0.3});
   const std::vector<V> path{V(0, 0.01), V(0, -0.02), V(0.5, -0.03)};
   const auto now = node.at<Real>(path.back(), node.preloaded<Real>(path));

@@ -18,19 +18,19 @@ using V = Vec<Real, 2>;
 constexpr Penalty penalty{.normal = 1000, .tangential = 100};
 constexpr Real dt = 0.5, area = 2.5;
 
-struct Scene {
+struct Touch {
   const char* name;
   rigid::Profile tool;
   V surface;  // a point of the tool
 };
-inline const std::vector<Scene> scenes{
+inline const std::vector<Touch> scenes{
     {"flat", rigid::line({0, 0}, {1, 0.3}), {0, 0}},
     {"convex", rigid::disc({0, 0}, 2), {2 * std::cos(0.7), 2 * std::sin(0.7)}},
     {"concave", rigid::path({0, 0}, {1, 0}).left(3, 2), {3 * std::sin(1.0), 3 - 3 * std::cos(1.0)}},
 };
 
 /// Places by depth below the surface and distance along it from the scene's point.
-inline V place(const Scene& scene, Real depth, Real along) {
+inline V place(const Touch& scene, Real depth, Real along) {
   const auto at = scene.tool.closest(V(scene.surface * (1 + 1e-12)));
   const V t = at.grad_surface.col(0).normalized();
   V x = scene.surface + along * t;
@@ -42,7 +42,7 @@ inline V place(const Scene& scene, Real depth, Real along) {
 }
 
 template <class Friction>
-auto node_on(const Scene& scene, const typename Friction::Law& law) {
+auto node_on(const Touch& scene, const typename Friction::Law& law) {
   return verify::SingleNode<Penalty, typename Friction::Law, Friction, rigid::Profile>{
       .enforcement = penalty, .law = law, .friction = {}, .tool = scene.tool, .weight = 1.7, .area = area};
 }
@@ -66,7 +66,7 @@ Real bound_of(const typename Friction::Law& law, const Node& now, const Memory& 
 enum class Expect { separated, sticking, sliding };
 
 template <class Friction>
-void check(const Scene& scene, const typename Friction::Law& law, const std::vector<V>& path, Expect expect) {
+void check(const Touch& scene, const typename Friction::Law& law, const std::vector<V>& path, Expect expect) {
   CAPTURE(scene.name);
   const auto node = node_on<Friction>(scene, law);
   const auto old = node.template preloaded<Real>(path, dt);
@@ -104,7 +104,7 @@ void check(const Scene& scene, const typename Friction::Law& law, const std::vec
 /// Every state of a node, for a law with a bound between about 0.1 and 0.5 of the pressure.
 template <class Friction>
 void check_states(const typename Friction::Law& law) {
-  for (const Scene& scene : scenes) {
+  for (const Touch& scene : scenes) {
     const V out = place(scene, -0.01, 0), first = place(scene, 0.02, 0.001), stuck = place(scene, 0.02, 0.004);
     check<Friction>(scene, law, {out, place(scene, -0.02, 0.1)}, Expect::separated);
     check<Friction>(scene, law, {out, first, place(scene, -0.005, 0.002)}, Expect::separated);
@@ -126,7 +126,7 @@ void check_states(const typename Friction::Law& law) {
 /// Along a walk from sticking into sliding: the slipped distance at the switch, by bisection.
 template <class Friction>
 void check_switch(const typename Friction::Law& law) {
-  for (const Scene& scene : scenes) {
+  for (const Touch& scene : scenes) {
     const V out = place(scene, -0.01, 0), first = place(scene, 0.02, 0.0);
     const auto node = node_on<Friction>(scene, law);
     const auto at = [&](Real along) { return std::vector<V>{out, first, first, place(scene, 0.02, along)}; };
@@ -152,7 +152,7 @@ template <class Friction>
 void check_walk(const typename Friction::Law& law) {
   std::mt19937 random(11);
   std::normal_distribution<Real> normal(0, 1);
-  for (const Scene& scene : scenes) {
+  for (const Touch& scene : scenes) {
     const auto node = node_on<Friction>(scene, law);
     auto memory = node.template preloaded<Real>({place(scene, -0.01, 0), place(scene, -0.01, 0)}, dt);
     Real along = 0, slip = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stickslip/base/brief.hpp>
+#include <stickslip/base/outcome.hpp>
 #include <stickslip/contact/contact_record.hpp>
 #include <stickslip/contact/node_measures.hpp>
 #include <stickslip/contact/persistency.hpp>

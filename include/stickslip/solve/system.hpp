@@ -197,11 +197,12 @@ class System : detail::Balance {
     ++pattern_revision_;
     connect();
   }
+  void update(const Field& u, Real time) { update(u, time, u); }
   /// Takes the displacements u at `time` for a start: positions on the tools, penalties in parts of the body's
   /// stiffness, and accelerations that balance the forces. Throws std::invalid_argument where contacts cannot start.
   Failure start(const Field& u, Real time) {
     for_each_contact(pairs_, [&](auto& pair) { pair.start(u, time); });
-    update(u, time, u);
+    update(u, time);
     if (const Failure f = compute_penalties(u, false)) return f;
     if constexpr (has_inertia<Model>) {
       if (const Failure f = assemble({u, time, 0, Want::tangent, nullptr, false, nullptr, matrix_, couplings_}))
