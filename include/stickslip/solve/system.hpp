@@ -190,6 +190,7 @@ class System : detail::Balance {
   /// Prepares an attempt at a step from the converged displacements u at `time`, which is guessed to end at `guess`:
   /// where a term's stencils have changed, the pattern is made anew.
   void update(const Field& u, Real time, const Field& guess) {
+    const Stopwatch watch(timings.update);
     bool changed = false;
     for_each_term([&](auto& term) { changed = term.update(u, time) || changed; });
     for_each_contact(pairs_, [&](auto& pair) { changed = pair.update(u, guess) || changed; });

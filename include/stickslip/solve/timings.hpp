@@ -14,6 +14,7 @@ struct Timings {
   Real factorization = 0;  ///< numeric and, once, symbolic
   Real solve = 0;          ///< forward and backward substitution
   Real estimates = 0;      ///< of the mesh's error
+  Real update = 0;         ///< of stencils that change from step to step, and of the pattern then
 
   template <class Self, class Visit>
   static constexpr void members(Self& self, Visit&& visit) {
@@ -22,6 +23,7 @@ struct Timings {
     visit("factorization", self.factorization);
     visit("solve", self.solve);
     visit("estimates", self.estimates);
+    visit("update", self.update);
   }
 };
 
