@@ -66,7 +66,7 @@ class RigidBodyModes {
       if (!(of.stiffness > 0)) continue;
       for (Index s = matrix.column_start[j]; s < matrix.column_start[j + 1]; ++s) {
         const Index a = dofs.component(matrix.row[s]);
-        if (!is_nodal(a)) continue;
+        if (!is_nodal(a) || parts_.at(a / dim) != parts_.at(b / dim)) continue;  // the other part rests
         const Components here = at(a);
         resist(of, here, matrix.values[s] / of.stiffness, there);
         if (matrix.symmetry == Symmetry::symmetric && a != b) resist(of, there, matrix.values[s] / of.stiffness, here);
