@@ -21,6 +21,8 @@ stickslip_part(mumps HEADERS linear_solver/mumps.hpp ABOUT "sequential MUMPS, Ce
                LIBRARY dmumps_seq FILE dmumps_c.h)
 stickslip_part(tabulated HEADERS material/tabulated_hardening.hpp ABOUT "Boost.Math" DEBIAN libboost-dev
                PACKAGES "Boost 1.74" TARGETS Boost::headers)
+stickslip_part(surfaces HEADERS contact/surface_contact.hpp ABOUT "Boost.Geometry" DEBIAN libboost-dev
+               PACKAGES "Boost 1.74" TARGETS Boost::headers)
 stickslip_part(triangulated HEADERS geometry/triangulated.hpp ABOUT "Boost.Geometry" DEBIAN libboost-dev
                PACKAGES "Boost 1.74" TARGETS Boost::headers)
 

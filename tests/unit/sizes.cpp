@@ -59,6 +59,9 @@ static_assert(Body<Model<J2, Frictionless, NoContact>>::bytes_per_point == 5 * s
 static_assert(Body<Model<FiniteJ2<PowerHardening>, Frictionless, NoContact>>::bytes_per_point == 5 * sizeof(Real));
 static_assert(Body<Model<HypoelasticJ2<LinearHardening>, Frictionless, NoContact>>::bytes_per_point ==
               10 * sizeof(Real));
+// A model without surfaces has the pairs on tools alone, and nothing for surfaces in what it is made of.
+static_assert(std::is_same_v<ContactPairs<Rough>, std::list<ContactPair<Rough>>>);
+static_assert(std::is_empty_v<decltype(detail::SceneParameters<Rough, int>::surfaces)> && !has_surfaces<Rough>);
 static_assert(ContactPair<Smooth>::bytes_per_node == 0);
 static_assert(ContactPair<Rough>::bytes_per_node == 3 * sizeof(Real));   // traction, place, slip
 static_assert(ContactPair<Lagged>::bytes_per_node == 4 * sizeof(Real));  // and the pressure
