@@ -160,11 +160,13 @@ class SurfacePoints {
   [[gnu::cold]] std::pair<Index, Real> deepest_start(const Field& u) const {
     std::pair<Index, Real> worst{Surface::none, 0};
     if (self_) return worst;
-    for (const auto& [nodes, body] : {std::pair{&slave_, &master_}, {&master_, &slave_}}) {
-      const FacetTree tree(body->size(), [&](std::size_t f) { return body->box(u, f, 0); });
-      for (const Index n : nodes->nodes())
-        if (const Real depth = body->depth(u, nodes->position(u, n), tree); depth > worst.second) worst = {n, depth};
-    }
+    const auto look = [&](const Surface& nodes, const Surface& body) {
+      const FacetTree tree(body.size(), [&](std::size_t f) { return body.box(u, f, 0); });
+      for (const Index n : nodes.nodes())
+        if (const Real depth = body.depth(u, nodes.position(u, n), tree); depth > worst.second) worst = {n, depth};
+    };
+    look(slave_, master_);
+    look(master_, slave_);
     return worst;
   }
   /// A node of one surface that has gone through the other within a step, or through its own; or one of a facet with a
@@ -246,7 +248,7 @@ class SurfacePoints {
   // the first of them adds a point for the tip.
   void look_at_creases(const Field& u, std::size_t f) {
     if (!creased_[f]) return;
-    for (const std::size_t end : {0, 1}) {
+    for (const std::size_t end : {std::size_t(0), std::size_t(1)}) {
       const Index beyond = end == 1 ? slave_.next(f) : slave_.previous(f), node = slave_.facet(f)[end];
       if (!bends(u, f, beyond)) continue;
       const Closest at = closest(u, f, Real(end));

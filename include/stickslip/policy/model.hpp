@@ -435,7 +435,7 @@ struct CheckModel {
   static_assert(rule::Surfaces<Model>,
                 "stickslip: the model's Surfaces does not meet SurfacesPolicy; see docs/policies.md, section Surface "
                 "contact.");
-  static_assert(rule::SurfacesNeedContact<Model> && rule::SurfacesInThePlane<Model>,
+  static_assert(rule::SurfacesNeedContact<Model>,
                 "stickslip: the model has Surfaces but no Enforcement for them; set Enforcement (Penalty) or leave "
                 "Surfaces out.");
   static_assert(rule::SurfacesInThePlane<Model>,

@@ -8,14 +8,19 @@
 
 namespace stickslip {
 
-/// Whether the bodies of a model touch each other and themselves, and with which friction. docs/policies.md, section
-/// Surface contact.
+/// Contact between surfaces that is there: its friction.
+template <class P>
+concept ActiveSurfaces = SingleFriction<typename P::Friction>;
+
+/// Whether the bodies of a model touch each other and themselves, and with which friction. The disjunction stands
+/// outside `requires`, inside which Clang 14 does not stop at the first operand. docs/policies.md, section Surface
+/// contact.
 template <class P>
 concept SurfacesPolicy = requires {
   requires std::same_as<typename P::Role, role::Surfaces>;
   requires std::same_as<decltype(P::active), const bool>;
-  requires !P::active || SingleFriction<typename P::Friction>;
-};
+}
+&&(!P::active || ActiveSurfaces<P>);
 
 /// Bodies touch tools alone: what a model has that names no surfaces.
 struct NoSurfaceContact {
