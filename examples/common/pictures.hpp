@@ -98,16 +98,18 @@ void write_tool_data(const std::filesystem::path& path, const stickslip::Scene<M
   stickslip::io::NewFile file(path);
   std::ostream& out = file.stream();
   problem.visit_contacts([&](const auto& pair) {
-    const auto pose = pair.motion().at(problem.time());
-    if constexpr (Model::Kinematics::dim == 2)
-      for (const auto& p : pair.tool().sample(reach / 200, reach)) {
-        const stickslip::Vec<double, 2> x = pose.in_space(p);
-        out << x[0] << ' ' << x[1] << " 0\n";
-      }
-    else
-      for (const auto& p : pair.tool().meridian().sample(reach / 200, reach))
-        out << p[0] << ' ' << p[1] + pose.translation[2] << " 0\n";
-    out << "\n\n";
+    if constexpr (requires { pair.tool(); }) {  // else a surface of a body, which is drawn with it
+      const auto pose = pair.motion().at(problem.time());
+      if constexpr (Model::Kinematics::dim == 2)
+        for (const auto& p : pair.tool().sample(reach / 200, reach)) {
+          const stickslip::Vec<double, 2> x = pose.in_space(p);
+          out << x[0] << ' ' << x[1] << " 0\n";
+        }
+      else
+        for (const auto& p : pair.tool().meridian().sample(reach / 200, reach))
+          out << p[0] << ' ' << p[1] + pose.translation[2] << " 0\n";
+      out << "\n\n";
+    }
   });
   file.place();
 }
