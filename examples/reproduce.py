@@ -78,10 +78,10 @@ def spread(values, form):
     return f"{form(statistics.median(values))} ({form(min(values))}-{form(max(values))})"
 
 
-def draw(directory, name, body):
+def draw(directory, name, body, size="900,600"):
     """Writes a gnuplot script and has it drawn as PNG and SVG."""
     script = "".join(
-        f"set terminal {kind} size 900,600 noenhanced background rgb 'white' font 'sans,12'\nset output '{name}.{end}'\n{body}\nunset output\n"
+        f"set terminal {kind} size {size} noenhanced background rgb 'white' font 'sans,12'\nset output '{name}.{end}'\n{body}\nunset output\n"
         for kind, end in (("pngcairo", "png"), ("svg", "svg"))
     )
     (directory / f"{name}.gp").write_text(script)
@@ -149,15 +149,18 @@ def shots(folder):
     return sorted(found)
 
 
-def draw_sequence(directory, name, title, files, shift, view, palette=True):
-    """Deformed meshes side by side, each `shift` mm to the right of the one before; `files` are (label, file)."""
+def draw_sequence(directory, name, title, files, shift, view, tool=None, size="900,600"):
+    """Deformed meshes side by side, each `shift` mm to the right of the one before; `files` are (label, file). A `tool` is
+    drawn with each, up to an abscissa: (file, abscissa)."""
     plots, labels = [], []
     for i, (label, file) in enumerate(files):
         plots.append(f"'{file}' using ($1+{i * shift}):2:3 with pm3d")
+        if tool:
+            plots.append(f"'{tool[0]}' using ($1<{tool[1]} ? $1+{i * shift} : NaN):2:(0) with lines lw 2 lc rgb 'black'")
         labels.append(f"set label {i + 1} '{label}' at first {i * shift + view['label'][0]}, first {view['label'][1]} front")
     draw(directory, name, f"set title '{title}'\nset view map\nset size ratio -1\nunset key\nset cblabel 'plastic strain'\n"
          "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
-         "set pm3d corners2color c1 border lc rgb '#404040' lw 0.2\n" + "\n".join(labels) + f"\n{view['ranges']}\nsplot " + ", ".join(plots))
+         "set pm3d corners2color c1 border lc rgb '#404040' lw 0.2\n" + "\n".join(labels) + f"\n{view['ranges']}\nsplot " + ", ".join(plots), size)
 
 
 def profile(path):
@@ -250,8 +253,8 @@ def shock_absorber(programs, out, repeats):
     for mu in (0.15, 0.30):
         folder = out / name / f"folds-coulomb-{mu:.2f}"
         files = [(f"{t:g} mm", f) for t, f in [*shots(folder), (50.0, "mesh.dat")] if t >= 20]
-        draw_sequence(folder, "folds", f"Shock absorber in contact with itself, mu = {mu:.2f}, Coulomb", files, 26,
-                      {"label": (19, 27), "ranges": "set xrange [17:125]\nset yrange [-9:30]"})
+        draw_sequence(folder, "folds", f"Shock absorber in contact with itself, mu = {mu:.2f}, Coulomb", files, 21,
+                      {"label": (27, 22.5), "ranges": "set xrange [19:106]\nset yrange [-6:24]"}, ("tools.dat", 38), "1400,620")
     return results
 
 

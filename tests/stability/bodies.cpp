@@ -586,9 +586,10 @@ void hits(Case& c, const TestedModel& b, const TimeScheme& scheme, Real normal, 
   const std::string at = b.name + ", alpha_f " + Case::number(scheme.alpha_f) + ", " + Case::number(normal) +
                          " times, " + std::to_string(steps_per_transit) + " steps";
   const bool overdamped = scheme.alpha_m < -0.9;
-  // At 400 steps the tolerance of 1e-9 is an aim: M / dt^2 leaves seven digits of the forces, and the run says so.
+  // At 400 steps the tolerance of 1e-9 is an aim: M / dt^2 leaves seven digits of the forces, and the run says so. At
+  // 100 it leaves eight, which is where the warning begins.
   for (const Warning& w : p.warnings)
-    c.require(w.name == "digits_lost" && steps_per_transit == 400, at + ": no warning, " + w.name + ": " + w.text);
+    c.require(w.name == "digits_lost" && steps_per_transit >= 100, at + ": no warning, " + w.name + ": " + w.text);
   c.require(largest < 1 + 1e-9, at + ": energy grows to " + Case::number(largest));
   c.require(end > (overdamped ? 0.94 : 0.97) && end < 0.998, at + ": end energy " + std::to_string(end));
   c.require(impulse / 0.1 - 1 > (overdamped ? 0.95 : 0.96) && impulse / 0.1 - 1 < 0.997, at + ": rebound");
