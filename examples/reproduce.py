@@ -254,7 +254,7 @@ def shock_absorber(programs, out, repeats):
         folder = out / name / f"folds-coulomb-{mu:.2f}"
         files = [(f"{t:g} mm", f) for t, f in [*shots(folder), (50.0, "mesh.dat")] if t >= 20]
         draw_sequence(folder, "folds", f"Shock absorber in contact with itself, mu = {mu:.2f}, Coulomb", files, 21,
-                      {"label": (27, 22.5), "ranges": "set xrange [19:106]\nset yrange [-6:24]"}, ("tools.dat", 38), "1400,620")
+                      {"label": (27, 22.5), "ranges": "set xrange [19:106]\nset yrange [-6:24]"}, ("tools.dat", 200), "1400,620")
     return results
 
 
