@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Nothing of ours is taken from the heap inside Newton's loop after the first iteration of a run. The linker sends the
 // calls that this program's own object code makes (Eigen's among them) to the counters below.
+#include <stickslip/contact/surface_contact.hpp>
 #include <stickslip/element/assumed_strain.hpp>
 #include <stickslip/element/hex8.hpp>
 #include <stickslip/element/mean_dilatation.hpp>
@@ -165,6 +166,44 @@ TEST_CASE_TEMPLATE("Newton's loop allocates nothing after its first iteration", 
   CHECK(p.max_plastic_strain() > 0.01);
   CHECK(ours == 0);
   MESSAGE("the solver's own allocations: ", solvers, " in ", iterations, " iterations");
+}
+
+struct Stacked : Model {
+  struct Block {
+    using Element = MeanDilatation<Quad4>;
+    using Material = FiniteJ2<PowerHardening>;
+  };
+  using Bodies = BodyTypes<Block>;
+  using Surfaces = SurfaceContact<QuasiCoulomb>;
+};
+
+// Points, stencils and pattern are made where a step begins, and ways are checked where it ends: of one step without
+// that check it is Newton's loop that is counted.
+TEST_CASE("Newton's loop with surfaces in contact allocates nothing after its first iteration") {
+  FiniteJ2<PowerHardening> steel;
+  steel.young = 69004;
+  steel.poisson = 0.3;
+  steel.hardening = {.strength = 589, .offset = 1e-4, .exponent = 0.216};
+  auto high = mesh::rectangle({.origin = {0, 5}, .size = {8, 5}, .cells = {5, 4}});
+  for (auto& x : high.nodes) x[1] += 0.01 * x[0] * x[0];
+  Problem<Stacked> p(
+      {.bodies = {{.name = "low", .mesh = mesh::rectangle({.size = {10, 5}, .cells = {7, 4}}), .material = steel},
+                  {.name = "high", .mesh = high, .material = steel}},
+       .surfaces = {{.side = "high.bottom",
+                     .against = "low.top",
+                     .friction = {.mu = 0.2},
+                     .enforcement = {.normal = 1e6, .tangential = 1e5, .per = PenaltyPer::area}}}});
+  p.hold("low.bottom", 1).hold("low.left", 0).hold("high.left", 0);
+  p.drive("high.top", 1, [](Real t) { return -0.3 * t; });
+  auto march = p.march({.end = 1, .steps = 1, .tolerance = 1e-8, .detect_tunnelling = false});
+  iterations = ours = solvers = 0;
+  march.finish();
+  ledger = Ledger::off;
+  CHECK_MESSAGE(march.outcome(), march.outcome().message());
+  CHECK(march.report().steps == 1);
+  CHECK(iterations > 4);
+  CHECK(p.contact("high.bottom on low.top").summary().touching > 2);
+  CHECK(ours == 0);
 }
 
 struct Brick : Model {
