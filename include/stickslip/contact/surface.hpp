@@ -88,6 +88,8 @@ class Surface {
     });
     return depth;
   }
+  /// Reference position of a node [length].
+  const Point& reference(Index node) const { return X_[static_cast<std::size_t>(node)]; }
   /// Position of a node at the displacements u [length].
   Point position(const Field& u, Index node) const {
     Point x = X_[static_cast<std::size_t>(node)];

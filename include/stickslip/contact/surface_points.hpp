@@ -260,16 +260,15 @@ class SurfacePoints {
       if (contraction(slave_.normal(u, other), normal) < -flat) continue;
       if (std::find(tips_.begin(), tips_.end(), node) != tips_.end()) continue;
       tips_.push_back(node);
-      points_.push_back({.eta = Real(end), .weight = tributary(u, f, node) + tributary(u, other, node), .tip = node});
+      points_.push_back({.eta = Real(end), .weight = tributary(f, node) + tributary(other, node), .tip = node});
     }
   }
   // Reference area of a facet that one of its nodes carries.
-  Real tributary(const Field& u, std::size_t f, Index node) {
-    const Field& rest = rest_of(u);
+  Real tributary(std::size_t f, Index node) const {
     const auto& ends = slave_.facet(f);
     const Index from = ends[0] == node ? ends[1] : ends[0];
-    Point third = scaled(slave_.position(rest, node), Real(2) / 3);
-    add(third, slave_.position(rest, from), Real(1) / 3);
+    Point third = scaled(slave_.reference(node), Real(2) / 3);
+    add(third, slave_.reference(from), Real(1) / 3);
     return 0.5 * slave_.length(f) * kinematics_.volume_factor(third);
   }
   // Cuts a slave facet where nodes of the master project on it, two Gauss points a piece.
@@ -284,8 +283,7 @@ class SurfacePoints {
         if (eta > 0 && eta < 1) cuts_.push_back(eta);
       }
     std::sort(cuts_.begin(), cuts_.end());
-    const Field& rest = rest_of(u);
-    const Point A = slave_.position(rest, ends[0]), W = minus(slave_.position(rest, ends[1]), A);
+    const Point A = slave_.reference(ends[0]), W = minus(slave_.reference(ends[1]), A);
     for (std::size_t c = 0; c + 1 < cuts_.size(); ++c) {
       const Real width = cuts_[c + 1] - cuts_[c];
       if (width < 1e-9) continue;
@@ -297,10 +295,6 @@ class SurfacePoints {
       }
     }
   }
-  const Field& rest_of(const Field& u) {
-    if (rest_.size() != u.size()) rest_.setZero(u.size());
-    return rest_;
-  }
 
   Surface slave_, master_;
   bool self_;
@@ -311,7 +305,6 @@ class SurfacePoints {
   std::vector<bool> creased_;  // facets of the slave
   std::vector<std::array<bool, 2>> counts_;
   std::vector<Index> tips_;  // of this step
-  Field rest_;               // no displacement
   Real reach_ = 0, allowed_ = 0;
 };
 
