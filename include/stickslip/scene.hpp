@@ -22,15 +22,6 @@ template <class Model>
 class March;
 
 namespace detail {
-template <class Model>
-struct SurfaceListOf {
-  using type = Empty<SurfaceListOf>;
-};
-template <class Model>
-  requires has_surfaces<Model>
-struct SurfaceListOf<Model> {
-  using type = SurfaceContacts<Model>;
-};
 /// What a problem is made of, for a model of one body.
 template <class Model, class Tag, bool several = NamesBodies<Model>>
 struct SceneParameters {
@@ -41,7 +32,7 @@ struct SceneParameters {
   [[no_unique_address]] typename Model::TimeIntegration time_integration{};
   [[no_unique_address]] DampingOf<Model> damping{};
   [[no_unique_address]] StoredIf<has_contact<Model>, Contacts<Model>, Tag> contacts{};
-  [[no_unique_address]] typename SurfaceListOf<Model>::type surfaces{};
+  [[no_unique_address]] SurfaceContacts<Model> surfaces{};
   [[no_unique_address]] TermsOf<Model> terms{};
 
   BodyDescriptions<Model> descriptions() && {
@@ -60,7 +51,7 @@ struct SceneParameters<Model, Tag, true> {
   [[no_unique_address]] typename Model::TimeIntegration time_integration{};
   [[no_unique_address]] DampingOf<Model> damping{};
   [[no_unique_address]] StoredIf<has_contact<Model>, Contacts<Model>, Tag> contacts{};
-  [[no_unique_address]] typename SurfaceListOf<Model>::type surfaces{};
+  [[no_unique_address]] SurfaceContacts<Model> surfaces{};
   [[no_unique_address]] TermsOf<Model> terms{};
 
   BodyDescriptions<Model> descriptions() && { return std::move(bodies); }

@@ -62,13 +62,18 @@ struct SurfaceContactDescription {
 namespace detail {
 template <class Model>
 struct SurfaceList {
+  using type = Empty<SurfaceList>;
+};
+template <class Model>
+  requires has_surfaces<Model>
+struct SurfaceList<Model> {
   using Friction = typename SurfacesOf<Model>::Friction;
   using type =
       std::vector<SurfaceContactDescription<typename Model::Enforcement, typename Friction::Law, Friction::active>>;
 };
 }  // namespace detail
 
-/// The contacts between surfaces of a model, as the user gives them.
+/// The contacts between surfaces of a model, as the user gives them; nothing of a model that has none.
 template <class Model>
 using SurfaceContacts = typename detail::SurfaceList<Model>::type;
 
